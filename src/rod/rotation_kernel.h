@@ -1,0 +1,49 @@
+// Rotations of the small angles that occur in one element or one time step, without trigonometry.
+#pragma once
+
+#include "cosserat_cable/math/small.h"
+
+namespace cosserat_cable::rod {
+
+/// Functions of x^2 with x = tan(angle/4), the length of the modified Rodrigues vector.
+template <class T>
+struct ArcTangentSeries {
+  T A;  ///< atan(x)/x, so that angle = 4 A x
+  T B;  ///< (1 - A (1 - x^2))/x^2
+};
+
+inline ArcTangentSeries<double> EvaluateArcTangent(double x2) {
+  // A = sum (-x2)^k/(2k+1), B = sum (-x2)^k (1/(2k+1) + 1/(2k+3)); nine terms are exact to
+  // rounding below x2 = 0.015, an angle of 0.5 rad in one element.
+  constexpr double kSeriesBelow = 0.015;
+  if (x2 < kSeriesBelow) {
+    constexpr int kTerms = 9;
+    double A = 0, B = 0;
+    for (int k = kTerms - 1; k >= 0; --k) {
+      A = 1.0 / (2 * k + 1) - x2 * A;
+      B = 1.0 / (2 * k + 1) + 1.0 / (2 * k + 3) - x2 * B;
+    }
+    return {A, B};
+  }
+  const double x = std::sqrt(x2);
+  const double A = std::atan(x) / x;
+  return {A, (1.0 - A * (1.0 - x2)) / x2};
+}
+
+/// Quaternion of the rotation vector `phi` [rad].
+inline Quat<double> Exp(const Vec3<double>& phi) {
+  const double y = 0.25 * Dot(phi, phi);  // (angle/2)^2
+  double c, s;                            // cos(angle/2), sin(angle/2)/angle
+  constexpr double kSeriesBelow = 0.05;
+  if (y < kSeriesBelow) {  // truncation y^6/12! < 1e-16
+    c = 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56 * (1 - y / 90))));
+    s = 0.5 * (1 - y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72 * (1 - y / 110)))));
+  } else {
+    const double half = std::sqrt(y);
+    c = std::cos(half);
+    s = 0.5 * std::sin(half) / half;
+  }
+  return {c, s * phi.x, s * phi.y, s * phi.z};
+}
+
+}  // namespace cosserat_cable::rod

@@ -1,0 +1,72 @@
+// Shear of a two-node element: the section's shear and the element's residual bending in series.
+//
+// Linear interpolation lets an element bend only as a whole; the S-shaped rest of its bending, under a
+// shear force Q, adds Q h^2/(12 EI) to the shear angle (MacNeal 1978). Both are Kelvin-Voigt elements carrying the
+// same force,
+//
+//     Q = GA g1 + eta_GA dg1/dt = B g2 + eta_B dg2/dt,   Gamma = g1 + g2,
+//     B = 12 EI/h^2, eta_B = 12 eta_EI/h^2,
+//
+// with g1 as internal variable: d(g1)/dt = lambda (G - g1), G = (B Gamma + eta_B dGamma/dt)/(GA + B),
+// lambda = (GA + B)/(eta_GA + eta_B). It is integrated exactly for a G that is linear over the step, which is
+// second order, and stable however stiff (lambda is infinite without damping).
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+namespace cosserat_cable::rod {
+
+class ShearSeries {
+ public:
+  ShearSeries(double GA, double eta_GA, double B, double eta_B)
+      : GA_(GA), sum_(GA + B), target_C_(B / sum_), target_V_(eta_B / sum_) {
+    const double eta = eta_GA + eta_B;
+    lambda_ = eta > 0 ? sum_ / eta : std::numeric_limits<double>::infinity();
+    viscous_ = eta > 0 ? eta_GA / eta * sum_ : 0.0;
+  }
+
+  /// State of one element in one direction.
+  struct History {
+    double g1 = 0;  ///< shear of the section proper [1]
+    double G = 0;   ///< what it tends to [1]
+  };
+
+  double static_stiffness() const { return GA_ * target_C_; }  ///< [N]
+
+  /// The law over one step of `dt` [s]: Q = offset + C Gamma + V dGamma/dt.
+  void BeginStep(double dt) {
+    const double x = lambda_ * dt;
+    decay_ = std::exp(-x);
+    if (x < kSeriesBelow) {
+      weight_new_ = x * (1.0 / 2 - x * (1.0 / 6 - x * (1.0 / 24 - x / 120)));
+      weight_old_ = x * (1.0 / 2 - x * (1.0 / 3 - x * (1.0 / 8 - x / 30)));
+    } else {
+      const double mean_decay = -std::expm1(-x) / x;
+      weight_new_ = 1.0 - mean_decay;
+      weight_old_ = mean_decay - decay_;
+    }
+    stiffness_ = (GA_ - viscous_) * weight_new_ + viscous_;
+  }
+  double C() const { return stiffness_ * target_C_; }
+  double V() const { return stiffness_ * target_V_; }
+  double Offset(const History& past) const { return (GA_ - viscous_) * Carry(past); }
+
+  /// The state at the end of the step begun.
+  History Commit(const History& past, double gamma, double gamma_dot) const {
+    const double G = target_C_ * gamma + target_V_ * gamma_dot;
+    return {Carry(past) + weight_new_ * G, G};
+  }
+  /// The state at rest under a constant shear angle.
+  History Rest(double gamma) const { return {target_C_ * gamma, target_C_ * gamma}; }
+
+ private:
+  static constexpr double kSeriesBelow = 0.01;  // below, four terms are exact to 1e-11
+
+  double Carry(const History& past) const { return decay_ * past.g1 + weight_old_ * past.G; }
+
+  double GA_, sum_, target_C_, target_V_, lambda_, viscous_;
+  double decay_ = 0, weight_old_ = 0, weight_new_ = 1, stiffness_ = 0;
+};
+
+}  // namespace cosserat_cable::rod
