@@ -5,16 +5,18 @@
 //
 //     Gamma = u/h            K = theta/h
 //
-// so both are invariant under superposed rigid motions. Rotations vary as R <- R exp([phi]x), phi in
-// the section's own frame. Exactly (every matrix below is a function of [theta]x, so they commute):
+// so both are invariant under superposed rigid motions. Rotations vary as R <- R exp([phi]x), phi
+// in the section's own frame. Exactly (every matrix below is a function of [theta]x, so they
+// commute):
 //
 //     delta theta = J2 phi2 - J1 phi1    J2 = I + [theta]x/2 + c [theta]x^2,  J1 = J2^T
 //     phi_m       = P1 phi1 + P2 phi2    P2 = (I + tau [theta]x)/2,           P1 = P2^T
 //     h delta Gamma = Rm^T (dr2 - dr1) + u x phi_m
 //
-// with x = tan(|theta|/4), A = atan(x)/x: tau = 1/(4A), c = (1 - (|theta|/2) cot(|theta|/2))/|theta|^2
-// = (1 - A(1-x^2))/(16 A^2 x^2). Strain rates are the same expressions with velocities in place of
-// variations, hence objective. No trigonometry is needed: x = vec(q)/(1 + q_w) of q = q1* q2.
+// with x = tan(|theta|/4), A = atan(x)/x: tau = 1/(4A), c = (1 - (|theta|/2)
+// cot(|theta|/2))/|theta|^2 = (1 - A(1-x^2))/(16 A^2 x^2). Strain rates are the same expressions
+// with velocities in place of variations, hence objective. No trigonometry is needed: x = vec(q)/(1
+// + q_w) of q = q1* q2.
 #pragma once
 
 #include "rotation_kernel.h"
@@ -22,13 +24,14 @@
 namespace cosserat_cable::rod {
 
 /// Section law as the time step sees it: stress = offset + C (strain - strain0) + V rate. Internal
-/// variables, where a law has them, are condensed into an offset per element, C and V once per step.
+/// variables, where a law has them, are condensed into an offset per element, C and V once per
+/// step.
 template <class T>
 struct ElementLaw {
-  T h;                    ///< length [m]
-  Vec3<T> C_F, C_M;       ///< [N], [N m^2]
-  Vec3<T> V_F, V_M;       ///< [N s], [N m^2 s]
-  Vec3<T> gamma0, kappa0; ///< unstressed strains [1], [1/m]
+  T h;                     ///< length [m]
+  Vec3<T> C_F, C_M;        ///< [N], [N m^2]
+  Vec3<T> V_F, V_M;        ///< [N s], [N m^2 s]
+  Vec3<T> gamma0, kappa0;  ///< unstressed strains [1], [1/m]
 };
 
 template <class T>
@@ -42,12 +45,12 @@ struct Node {
 template <class T>
 struct ElementState {
   Mat3<T> Rm;
-  Vec3<T> u;               ///< Rm^T (r2 - r1) [m]
-  Vec3<T> theta;           ///< [rad]
+  Vec3<T> u;      ///< Rm^T (r2 - r1) [m]
+  Vec3<T> theta;  ///< [rad]
   T tau, c;
   Vec3<T> gamma, gamma_dot;  ///< strain [1] and rate [1/s]
   Vec3<T> kappa, kappa_dot;  ///< [1/m], [1/(m s)]
-  Vec3<T> n, m;            ///< force [N] and moment [N m] in the midpoint's frame
+  Vec3<T> n, m;              ///< force [N] and moment [N m] in the midpoint's frame
 };
 
 /// Strains and their rates.
@@ -71,8 +74,7 @@ void EvaluateStrain(const Node<T>& a, const Node<T>& b, const T& h, ElementState
   const Vec3<T> tx = Cross(e->theta, domega);
   const Vec3<T> omega_m = T(0.5) * (somega + e->tau * tx);
   e->gamma_dot = inv_h * (TransposeTimes(e->Rm, b.v - a.v) + Cross(e->u, omega_m));
-  e->kappa_dot =
-      inv_h * (domega + T(0.5) * Cross(e->theta, somega) + e->c * Cross(e->theta, tx));
+  e->kappa_dot = inv_h * (domega + T(0.5) * Cross(e->theta, somega) + e->c * Cross(e->theta, tx));
 }
 
 /// Force and moment of the section law at strains that EvaluateStrain has set.
@@ -85,8 +87,8 @@ void EvaluateStress(const ElementLaw<T>& law, const Vec3<T>& offset_F, ElementSt
 /// Generalised forces on the two nodes: what the element adds to M dv/dt + ... = 0.
 template <class T>
 struct ElementForces {
-  Vec3<T> f;        ///< on r2 [N], world; -f on r1
-  Vec3<T> g1, g2;   ///< moments on phi1, phi2 [N m], each in its node's frame
+  Vec3<T> f;       ///< on r2 [N], world; -f on r1
+  Vec3<T> g1, g2;  ///< moments on phi1, phi2 [N m], each in its node's frame
 };
 
 template <class T>
@@ -108,16 +110,17 @@ ElementForces<T> EvaluateForces(const ElementState<T>& e) {
 /// Symmetric 12x12 tangent of one element in its blocks. Signs: rows r2; r1 has the opposite ones.
 template <class T>
 struct ElementTangent {
-  Mat3<T> rr;           ///< d f/d r2
-  Mat3<T> r1, r2;       ///< d f/d phi1, d f/d phi2
+  Mat3<T> rr;             ///< d f/d r2
+  Mat3<T> r1, r2;         ///< d f/d phi1, d f/d phi2
   Mat3<T> t11, t12, t22;  ///< d g_i/d phi_j
 };
 
 /// Tangent for strain-like moduli `C_F`, `C_M` (C, or C + V d(rate)/d(strain) in a time step).
 ///
-/// The geometric part is exact to second order in theta; the skew part of the diagonal blocks, which vanishes in balance, and the change of
-/// strain rates with the configuration are left out, so that the system stays symmetric. Newton then
-/// contracts by about 1e-3 per iteration instead of quadratically; residuals are exact.
+/// The geometric part is exact to second order in theta; the skew part of the diagonal blocks,
+/// which vanishes in balance, and the change of strain rates with the configuration are left out,
+/// so that the system stays symmetric. Newton then contracts by about 1e-3 per iteration instead of
+/// quadratically; residuals are exact.
 template <class T>
 ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const T& h, const Vec3<T>& C_F,
                                   const Vec3<T>& C_M) {
@@ -145,13 +148,14 @@ ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const T& h, const Ve
   M[1][2] = M[2][1] = -cf.x * e.u.y * e.u.z + T(0.5) * (e.n.y * e.u.z + e.n.z * e.u.y);
 
   // P_i^T M P_j with P = (I -+ tau [theta])/2
-  const Mat3<T> Mt = e.tau * TimesCross(M, e.theta);         // M tau[theta]
-  const Mat3<T> tMt = e.tau * CrossTimes(e.theta, Mt);       // tau[theta] M tau[theta]
-  const Mat3<T> tM = Transpose(Mt);                          // -(tau[theta] M), M symmetric
+  const Mat3<T> Mt = e.tau * TimesCross(M, e.theta);    // M tau[theta]
+  const Mat3<T> tMt = e.tau * CrossTimes(e.theta, Mt);  // tau[theta] M tau[theta]
+  const Mat3<T> tM = Transpose(Mt);                     // -(tau[theta] M), M symmetric
 
   // J_i^T cm J_j with J2 = I + E + O, J1 = I + E - O, O = [theta]/2, E = c [theta]^2
   Mat3<T> even = e.c * (Outer(e.theta, e.theta));
   const T diagonal = T(1) - e.c * Dot(e.theta, e.theta);
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) even[i][i] += diagonal;
   const Mat3<T> odd = T(0.5) * CrossMatrix(e.theta);
   const Mat3<T> cE = ScaleRows(cm, even), cO = ScaleRows(cm, odd);
@@ -159,9 +163,9 @@ ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const T& h, const Ve
   // J2^T c J2 = (E - O) c (E + O),  J1^T c J1 = (E + O) c (E - O),  J1^T c J2 = (E + O) c (E + O)
   // with OcE = -(EcO)^T.
 
-  // Geometric stiffness of the moment, to second order: Q/2 on the diagonal, [m]x/2 + Q beside it, with
-  // Q = (theta m^T + m theta^T)/6 - (theta.m)/3 I. It matters: spinning a bent cable about its own
-  // axis is resisted by torsion over the whole length only.
+  // Geometric stiffness of the moment, to second order: Q/2 on the diagonal, [m]x/2 + Q beside it,
+  // with Q = (theta m^T + m theta^T)/6 - (theta.m)/3 I. It matters: spinning a bent cable about its
+  // own axis is resisted by torsion over the whole length only.
   const T tm = T(1.0 / 3) * Dot(e.theta, e.m);
   const Vec3<T> sixth = T(1.0 / 6) * e.theta;
   Mat3<T> Q;
@@ -173,7 +177,9 @@ ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const T& h, const Ve
   Q[1][2] = Q[2][1] = sixth.y * e.m.z + sixth.z * e.m.y;
   const Mat3<T> half_m = T(0.5) * CrossMatrix(e.m);
 
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) {
       const T quarter_M = T(0.25) * (M[i][j] - tMt[i][j]);
       const T quarter_odd = T(0.25) * (Mt[i][j] + tM[i][j]);

@@ -9,12 +9,12 @@ namespace cosserat_cable::rod {
 namespace {
 
 constexpr int kMaxIterations = 300;
-constexpr double kTolerance = 1e-10;      // of the correction, relative to the length and in rad
-constexpr double kMaxTurn = 0.4;          // rad of one node in one iteration
-constexpr double kMaxMove = 0.1;          // of the length, likewise
+constexpr double kTolerance = 1e-10;  // of the correction, relative to the length and in rad
+constexpr double kMaxTurn = 0.4;      // rad of one node in one iteration
+constexpr double kMaxMove = 0.1;      // of the length, likewise
 constexpr double kSufficientDecrease = 1e-4;
-constexpr double kFirstShift = 1e-3;      // in units of the bending stiffness of one element
-constexpr double kSmallestShift = 1e-7;   // below, none
+constexpr double kFirstShift = 1e-3;     // in units of the bending stiffness of one element
+constexpr double kSmallestShift = 1e-7;  // below, none
 constexpr double kLargestShift = 1e9;
 constexpr int kMaxHalvings = 30;
 // Rounding of the energy, relative to the sum of its parts: differences below are noise.
@@ -30,15 +30,15 @@ SolveReport Rod::Equilibrate(const Load* load) {
   m.PrepareStatics();
 
   const double bending = std::min(m.law.C_M.x, m.law.C_M.y);
-  const double rotation_scale = bending / m.h;                       // [N m]
-  const double translation_scale = bending / (m.h * m.h * m.h);      // [N/m]
+  const double rotation_scale = bending / m.h;                   // [N m]
+  const double translation_scale = bending / (m.h * m.h * m.h);  // [N/m]
 
   double noise = 0;
   const auto energy = [&] {
     const double strain = m.StrainEnergy(), gravity = m.GravityEnergy(m.trial);
-    const double contact = load ? load->Energy(m) : 0.0;
-    noise = kEnergyNoise * (strain + std::abs(gravity) + contact);
-    return strain + gravity + contact;
+    const double outside = load ? load->Energy(m) : 0.0;
+    noise = kEnergyNoise * (strain + std::abs(gravity) + std::abs(outside));
+    return strain + gravity + outside;
   };
 
   SolveReport report;
@@ -100,7 +100,8 @@ SolveReport Rod::Equilibrate(const Load* load) {
       if (shift > kLargestShift) return report;
       continue;
     }
-    if (shift == 0 && report.correction < kTolerance) {
+    // A little shift may stay: a shape that can be turned freely has a singular Hessian.
+    if (shift <= kFirstShift && report.correction < kTolerance) {
       report.converged = true;
       break;
     }

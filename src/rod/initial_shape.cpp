@@ -49,16 +49,18 @@ void FitLength(Curve* curve, double Curve::*parameter, double upper, double leng
   }
 }
 
-Vector3d WithoutComponent(const Vector3d& v, const Vector3d& unit) { return v - v.dot(unit) * unit; }
+Vector3d WithoutComponent(const Vector3d& v, const Vector3d& unit) {
+  return v - v.dot(unit) * unit;
+}
 
 Vector3d BowDirection(const Vector3d& chord, const Vector3d& t0, const Vector3d& t1,
                       const Vector3d& down, const Vector3d& a1) {
   const Vector3d along = chord.norm() > 0 ? chord.normalized() : t0;
-  // Where the clamps point counts most; gravity and a fixed axis of the section decide what is left open.
+  // Where the clamps point counts most; gravity and a fixed axis of the section decide what is left
+  // open.
   constexpr double kGravity = 1e-1, kTieBreak = 1e-3;
   const Vector3d unit_down = down.norm() > 0 ? Vector3d(down.normalized()) : Vector3d::Zero();
-  Vector3d direction =
-      WithoutComponent(t0 - t1 + kGravity * unit_down + kTieBreak * a1, along);
+  Vector3d direction = WithoutComponent(t0 - t1 + kGravity * unit_down + kTieBreak * a1, along);
   if (direction.norm() < kTieBreak * kTieBreak) direction = along.unitOrthogonal();
   return direction.normalized();
 }
@@ -72,8 +74,7 @@ std::vector<Pose> BowedShape(const Pose& a, const Pose& b, double length, int el
   curve.p1 = b.p;
   curve.t0 = a.q * Vector3d::UnitZ();
   curve.t1 = b.q * Vector3d::UnitZ();
-  curve.bow_direction =
-      BowDirection(b.p - a.p, curve.t0, curve.t1, down, a.q * Vector3d::UnitX());
+  curve.bow_direction = BowDirection(b.p - a.p, curve.t0, curve.t1, down, a.q * Vector3d::UnitX());
   curve.reach = length;
   if (curve.Length() > length)
     FitLength(&curve, &Curve::reach, length, length);
@@ -106,8 +107,8 @@ std::vector<Pose> BowedShape(const Pose& a, const Pose& b, double length, int el
   double twist = 2 * std::atan2(rest.z(), rest.w());
   twist = std::remainder(twist, 2 * M_PI);
   for (int i = 1; i <= elements; ++i)
-    nodes[i].q = nodes[i].q *
-                 Quaterniond(Eigen::AngleAxisd(twist * i / elements, Vector3d::UnitZ()));
+    nodes[i].q =
+        nodes[i].q * Quaterniond(Eigen::AngleAxisd(twist * i / elements, Vector3d::UnitZ()));
   nodes.back() = b;
   return nodes;
 }

@@ -6,6 +6,7 @@ namespace cosserat_cable::rod {
 
 Rod::Rod(const RodModel& model) : impl_(std::make_unique<Impl>(model)) {}
 Rod::~Rod() = default;
+Rod::Rod(const Rod& other) : Centreline(other), impl_(std::make_unique<Impl>(*other.impl_)) {}
 Rod::Rod(Rod&&) noexcept = default;
 Rod& Rod::operator=(Rod&&) noexcept = default;
 
@@ -63,8 +64,8 @@ double Rod::kinetic_energy() const {
   double energy = 0;
   for (int i = 0; i < impl_->count; ++i) {
     const NodeState& n = impl_->node[i];
-    energy += 0.5 * (impl_->mass[i] * Dot(n.v, n.v) +
-                     Dot(n.omega, Scale(impl_->inertia[i], n.omega)));
+    energy +=
+        0.5 * (impl_->mass[i] * Dot(n.v, n.v) + Dot(n.omega, Scale(impl_->inertia[i], n.omega)));
   }
   return energy;
 }

@@ -128,23 +128,28 @@ void Rod::Impl::AddLoad(const Load& load, bool tangent, double rate_factor) {
 void Rod::Impl::AssembleTangent(double rate_factor) {
   const V3 C_F = law.C_F + rate_factor * law.V_F;
   const V3 C_M = law.C_M + rate_factor * law.V_M;
-  system.SetZero();
+  // Only lower triangles of the diagonal blocks are read: quarter (0, 1) is never filled. An
+  // element sets the block of its second node and adds to that of its first.
+  Block6<Scalar>& front = system.diagonal(0);
+  front.SetQuarter(0, 0, {});
+  front.SetQuarter(1, 0, {});
+  front.SetQuarter(1, 1, {});
   for (int e = 0; e < model.elements; ++e) {
     const ElementTangent<Scalar> k = EvaluateTangent(element[e], h, C_F, C_M);
-    // Only lower triangles of the diagonal blocks are read: quarter (0, 1) is never filled.
+    const Mat3<Scalar> r1_transposed = Transpose(k.r1), r2_transposed = Transpose(k.r2);
     Block6<Scalar>& a = system.diagonal(e);
     a.AddQuarter(0, 0, k.rr);
-    a.AddQuarter(1, 0, -1.0 * Transpose(k.r1));
+    a.AddQuarter(1, 0, -r1_transposed);
     a.AddQuarter(1, 1, k.t11);
     Block6<Scalar>& b = system.diagonal(e + 1);
-    b.AddQuarter(0, 0, k.rr);
-    b.AddQuarter(1, 0, Transpose(k.r2));
-    b.AddQuarter(1, 1, k.t22);
+    b.SetQuarter(0, 0, k.rr);
+    b.SetQuarter(1, 0, r2_transposed);
+    b.SetQuarter(1, 1, k.t22);
     Block6<Scalar>& c = system.lower(e);
-    c.AddQuarter(0, 0, -1.0 * k.rr);
-    c.AddQuarter(0, 1, k.r1);
-    c.AddQuarter(1, 0, -1.0 * Transpose(k.r2));
-    c.AddQuarter(1, 1, Transpose(k.t12));
+    c.SetQuarter(0, 0, -k.rr);
+    c.SetQuarter(0, 1, k.r1);
+    c.SetQuarter(1, 0, -r2_transposed);
+    c.SetQuarter(1, 1, Transpose(k.t12));
   }
 }
 

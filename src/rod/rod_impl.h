@@ -26,12 +26,12 @@ struct Rod::Impl : public Centreline {
 
   // ---- constants
   RodModel model;
-  int count;                   // of nodes
-  double h;                    // element length [m]
-  std::vector<double> mass;    // lumped at the nodes [kg]
-  std::vector<V3> inertia;     // about the section's axes [kg m^2]
+  int count;                 // of nodes
+  double h;                  // element length [m]
+  std::vector<double> mass;  // lumped at the nodes [kg]
+  std::vector<V3> inertia;   // about the section's axes [kg m^2]
   V3 gravity;
-  ElementLaw<Scalar> law;      // of the step or of statics, whichever was prepared last
+  ElementLaw<Scalar> law;  // of the step or of statics, whichever was prepared last
   ShearSeries shear1, shear2;
 
   // ---- state at the last accepted instant
@@ -46,8 +46,8 @@ struct Rod::Impl : public Centreline {
   std::vector<V3> offset_F;
   std::vector<ElementState<Scalar>> element;
   BlockTridiagonal<Scalar> system;
-  std::vector<Vec6<Scalar>> rhs;          // minus the residual, then the correction
-  std::vector<Vec6<Scalar>> increment;    // of the step: displacement, rotation vector
+  std::vector<Vec6<Scalar>> rhs;        // minus the residual, then the correction
+  std::vector<Vec6<Scalar>> increment;  // of the step: displacement, rotation vector
   std::vector<NodeRates> trial_rate, trial_algorithm;
 
   int first_free() const { return model.held_a ? 1 : 0; }

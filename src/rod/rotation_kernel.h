@@ -13,16 +13,16 @@ struct ArcTangentSeries {
 };
 
 inline ArcTangentSeries<double> EvaluateArcTangent(double x2) {
-  // A = sum (-x2)^k/(2k+1), B = sum (-x2)^k (1/(2k+1) + 1/(2k+3)); nine terms are exact to
-  // rounding below x2 = 0.015, an angle of 0.5 rad in one element.
-  constexpr double kSeriesBelow = 0.015;
+  // A = sum (-x2)^k/(2k+1), B = sum (-x2)^k (1/(2k+1) + 1/(2k+3)); seven terms are exact to
+  // rounding (x2^7/15 < 1e-16) below x2 = 0.0075, an angle of 0.35 rad in one element.
+  constexpr double kSeriesBelow = 0.0075;
   if (x2 < kSeriesBelow) {
-    constexpr int kTerms = 9;
-    double A = 0, B = 0;
-    for (int k = kTerms - 1; k >= 0; --k) {
-      A = 1.0 / (2 * k + 1) - x2 * A;
-      B = 1.0 / (2 * k + 1) + 1.0 / (2 * k + 3) - x2 * B;
-    }
+    const auto a = [](int k) { return 1.0 / (2 * k + 1); };
+    const double A =
+        a(0) - x2 * (a(1) - x2 * (a(2) - x2 * (a(3) - x2 * (a(4) - x2 * (a(5) - x2 * a(6))))));
+    const auto b = [a](int k) { return a(k) + a(k + 1); };
+    const double B =
+        b(0) - x2 * (b(1) - x2 * (b(2) - x2 * (b(3) - x2 * (b(4) - x2 * (b(5) - x2 * b(6))))));
     return {A, B};
   }
   const double x = std::sqrt(x2);

@@ -1,15 +1,15 @@
 // Shear of a two-node element: the section's shear and the element's residual bending in series.
 //
-// Linear interpolation lets an element bend only as a whole; the S-shaped rest of its bending, under a
-// shear force Q, adds Q h^2/(12 EI) to the shear angle (MacNeal 1978). Both are Kelvin-Voigt elements carrying the
-// same force,
+// Linear interpolation lets an element bend only as a whole; the S-shaped rest of its bending,
+// under a shear force Q, adds Q h^2/(12 EI) to the shear angle (MacNeal 1978). Both are
+// Kelvin-Voigt elements carrying the same force,
 //
 //     Q = GA g1 + eta_GA dg1/dt = B g2 + eta_B dg2/dt,   Gamma = g1 + g2,
 //     B = 12 EI/h^2, eta_B = 12 eta_EI/h^2,
 //
-// with g1 as internal variable: d(g1)/dt = lambda (G - g1), G = (B Gamma + eta_B dGamma/dt)/(GA + B),
-// lambda = (GA + B)/(eta_GA + eta_B). It is integrated exactly for a G that is linear over the step, which is
-// second order, and stable however stiff (lambda is infinite without damping).
+// with g1 as internal variable: d(g1)/dt = lambda (G - g1), G = (B Gamma + eta_B dGamma/dt)/(GA +
+// B), lambda = (GA + B)/(eta_GA + eta_B). It is integrated exactly for a G that is linear over the
+// step, which is second order, and stable however stiff (lambda is infinite without damping).
 #pragma once
 
 #include <cmath>

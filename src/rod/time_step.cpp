@@ -20,9 +20,10 @@ constexpr double kRoundOff = 1e-12;
 V3 Translation(const Vec6<Scalar>& d) { return {d[0], d[1], d[2]}; }
 V3 Rotation(const Vec6<Scalar>& d) { return {d[3], d[4], d[5]}; }
 
-/// The system is solved for the variation phi in the section's frame; the step's rotation vector Theta
-/// changes by Jr(Theta)^{-1} phi = phi + Theta x phi/2 + Theta x (Theta x phi)/12. With that, the rates' tangent
-/// is `velocity_by_increment` times the strains' to first order in Theta: what both leave out cancels.
+/// The system is solved for the variation phi in the section's frame; the step's rotation vector
+/// Theta changes by Jr(Theta)^{-1} phi = phi + Theta x phi/2 + Theta x (Theta x phi)/12. With that,
+/// the rates' tangent is `velocity_by_increment` times the strains' to first order in Theta: what
+/// both leave out cancels.
 void Correct(const Vec6<Scalar>& correction, Vec6<Scalar>* increment) {
   const V3 theta = Rotation(*increment), phi = Rotation(correction);
   const V3 across = Cross(theta, phi);
@@ -94,8 +95,8 @@ SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* l
     for (int i = 0; i < m.count; ++i) {
       const V3 f = m.mass[i] * m.trial_rate[i].v;
       const V3& omega = m.trial[i].omega;
-      const V3 g = Scale(m.inertia[i], m.trial_rate[i].omega) +
-                   Cross(omega, Scale(m.inertia[i], omega));
+      const V3 g =
+          Scale(m.inertia[i], m.trial_rate[i].omega) + Cross(omega, Scale(m.inertia[i], omega));
       Vec6<Scalar>& b = m.rhs[i];
       b[0] -= f.x;
       b[1] -= f.y;
@@ -147,10 +148,10 @@ SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* l
   if (load) m.AddLoad(*load, false, velocity_by_increment);
   for (int e = 0; e < m.model.elements; ++e) {
     const ElementState<Scalar>& state = m.element[e];
-    m.shear[e][0] = m.shear1.Commit(m.shear[e][0], state.gamma.x - m.law.gamma0.x,
-                                    state.gamma_dot.x);
-    m.shear[e][1] = m.shear2.Commit(m.shear[e][1], state.gamma.y - m.law.gamma0.y,
-                                    state.gamma_dot.y);
+    m.shear[e][0] =
+        m.shear1.Commit(m.shear[e][0], state.gamma.x - m.law.gamma0.x, state.gamma_dot.x);
+    m.shear[e][1] =
+        m.shear2.Commit(m.shear[e][1], state.gamma.y - m.law.gamma0.y, state.gamma_dot.y);
   }
   std::swap(m.node, m.trial);
   std::swap(m.rate, m.trial_rate);

@@ -43,7 +43,9 @@ struct Mat3 {
   T* operator[](int row) { return m[row]; }
   const T* operator[](int row) const { return m[row]; }
   Mat3& operator+=(const Mat3& b) {
+#pragma GCC unroll 3
     for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
       for (int j = 0; j < 3; ++j) m[i][j] += b.m[i][j];
     return *this;
   }
@@ -54,14 +56,27 @@ Mat3<T> operator+(Mat3<T> a, const Mat3<T>& b) { return a += b; }
 template <class T>
 Mat3<T> operator-(const Mat3<T>& a, const Mat3<T>& b) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) c[i][j] = a[i][j] - b[i][j];
+  return c;
+}
+template <class T>
+Mat3<T> operator-(const Mat3<T>& a) {
+  Mat3<T> c;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) c[i][j] = -a[i][j];
   return c;
 }
 template <class T>
 Mat3<T> operator*(const T& s, const Mat3<T>& a) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) c[i][j] = s * a[i][j];
   return c;
 }
@@ -81,7 +96,9 @@ Vec3<T> TransposeTimes(const Mat3<T>& a, const Vec3<T>& b) {
 template <class T>
 Mat3<T> operator*(const Mat3<T>& a, const Mat3<T>& b) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j)
       c[i][j] = a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
   return c;
@@ -89,7 +106,9 @@ Mat3<T> operator*(const Mat3<T>& a, const Mat3<T>& b) {
 template <class T>
 Mat3<T> Transpose(const Mat3<T>& a) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
     for (int j = 0; j < 3; ++j) c[i][j] = a[j][i];
   return c;
 }
@@ -97,6 +116,7 @@ Mat3<T> Transpose(const Mat3<T>& a) {
 template <class T>
 Mat3<T> TimesCross(const Mat3<T>& a, const Vec3<T>& v) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     c[i][0] = a[i][1] * v.z - a[i][2] * v.y;
     c[i][1] = a[i][2] * v.x - a[i][0] * v.z;
@@ -108,6 +128,7 @@ Mat3<T> TimesCross(const Mat3<T>& a, const Vec3<T>& v) {
 template <class T>
 Mat3<T> CrossTimes(const Vec3<T>& v, const Mat3<T>& a) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int j = 0; j < 3; ++j) {
     c[0][j] = v.y * a[2][j] - v.z * a[1][j];
     c[1][j] = v.z * a[0][j] - v.x * a[2][j];
@@ -119,6 +140,7 @@ Mat3<T> CrossTimes(const Vec3<T>& v, const Mat3<T>& a) {
 template <class T>
 Mat3<T> ScaleColumns(const Mat3<T>& a, const Vec3<T>& d) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int i = 0; i < 3; ++i) {
     c[i][0] = a[i][0] * d.x;
     c[i][1] = a[i][1] * d.y;
@@ -130,6 +152,7 @@ Mat3<T> ScaleColumns(const Mat3<T>& a, const Vec3<T>& d) {
 template <class T>
 Mat3<T> ScaleRows(const Vec3<T>& d, const Mat3<T>& a) {
   Mat3<T> c;
+#pragma GCC unroll 3
   for (int j = 0; j < 3; ++j) {
     c[0][j] = d.x * a[0][j];
     c[1][j] = d.y * a[1][j];

@@ -18,8 +18,8 @@ class Centreline {
 class LoadSink {
  public:
   virtual ~LoadSink() = default;
-  /// A force [N] at the fraction `xi` of `element`, with its derivatives by the point's position [N/m] and
-  /// velocity [N s/m]; both symmetric, and not positive for a force that resists.
+  /// A force [N] at the fraction `xi` of `element`, with its derivatives by the point's position
+  /// [N/m] and velocity [N s/m]; both symmetric, and not positive for a force that resists.
   virtual void AddForce(int element, double xi, const Vec3<double>& force,
                         const Mat3<double>& by_position, const Mat3<double>& by_velocity) = 0;
 };

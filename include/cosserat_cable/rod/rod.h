@@ -1,9 +1,9 @@
 // A geometrically exact Cosserat rod with Kelvin-Voigt damping: statics and implicit dynamics.
 //
-// Two-node elements with strains at the geodesic midpoint, shear corrected for the residual bending of the element,
-// lumped mass: second order in the element length. Generalised-alpha in time: second order,
-// no numerical damping worth the name. Each Newton iteration is a block-tridiagonal solve, O(elements). All vectors in an inertial
-// frame, SI units.
+// Two-node elements with strains at the geodesic midpoint, shear corrected for the residual bending
+// of the element, lumped mass: second order in the element length. Generalised-alpha in time:
+// second order, no numerical damping worth the name. Each Newton iteration is a block-tridiagonal
+// solve, O(elements). All vectors in an inertial frame, SI units.
 #pragma once
 
 #include <memory>
@@ -45,6 +45,7 @@ class Rod : public Centreline {
  public:
   explicit Rod(const RodModel& model);
   ~Rod() override;
+  Rod(const Rod& other);
   Rod(Rod&&) noexcept;
   Rod& operator=(Rod&&) noexcept;
 
@@ -53,21 +54,23 @@ class Rod : public Centreline {
 
   /// Sets the configuration, at rest. `nodes`: elements + 1 poses, a3 along growing s.
   void SetConfiguration(const std::vector<Pose>& nodes);
-  /// Adds the velocities of a rigid motion: of the frame whose origin is at `p` [m] with velocity v [m/s] and
-  /// angular velocity omega [rad/s], all in world axes.
+  /// Adds the velocities of a rigid motion: of the frame whose origin is at `p` [m] with velocity v
+  /// [m/s] and angular velocity omega [rad/s], all in world axes.
   void AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
                       const Eigen::Vector3d& omega);
 
-  /// Static equilibrium by energy minimisation from the present configuration (regularised Newton with a line search);
-  /// held ends stay where they are. Velocities become zero.
+  /// Static equilibrium by energy minimisation from the present configuration (regularised Newton
+  /// with a line search); held ends stay where they are. Velocities become zero.
   SolveReport Equilibrate(const Load* load = nullptr);
 
-  /// Advances by `dt` [s] to held ends that move like `a` and `b`. Where it does not converge the state is left
-  /// as it was.
+  /// Advances by `dt` [s] to held ends that move like `a` and `b`. Where it does not converge the
+  /// state is left as it was.
   SolveReport Step(double dt, const Motion& a, const Motion& b, const Load* load = nullptr);
 
-  /// Where the nodes would be after `dt` with unchanged velocities; ends as in `a`, `b`. What contact is searched at.
-  void Predict(double dt, const Motion& a, const Motion& b, std::vector<Eigen::Vector3d>* positions) const;
+  /// Where the nodes would be after `dt` with unchanged velocities; ends as in `a`, `b`. What
+  /// contact is searched at.
+  void Predict(double dt, const Motion& a, const Motion& b,
+               std::vector<Eigen::Vector3d>* positions) const;
 
   // The state.
   Vec3<double> position(int node) const override;
@@ -80,9 +83,9 @@ class Rod : public Centreline {
   Eigen::Vector3d curvature(int element) const;      ///< K [1/m]
   Wrench reaction_a() const;
   Wrench reaction_b() const;
-  double kinetic_energy() const;                     ///< [J]
-  double elastic_energy() const;                     ///< [J]
-  double gravity_energy() const;                     ///< [J], zero at the world's origin
+  double kinetic_energy() const;  ///< [J]
+  double elastic_energy() const;  ///< [J]
+  double gravity_energy() const;  ///< [J], zero at the world's origin
 
  private:
   struct Impl;
