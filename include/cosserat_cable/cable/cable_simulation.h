@@ -1,7 +1,7 @@
 // One cable in motion: the rod, its clamps, and the bodies it touches.
 //
-// Everything is in an inertial world frame W. Step is the only way in which time advances: live, in replay, in a
-// fit, in a benchmark. Same input, same bits.
+// Everything is in an inertial world frame W. Step is the only way in which time advances: live, in
+// replay, in a fit, in a benchmark. Same input, same bits.
 #pragma once
 
 #include <memory>
@@ -16,33 +16,34 @@ namespace cosserat_cable {
 
 /// Motions of everything that drives a cable, in W, at one instant.
 struct Surroundings {
-  Motion a, b;                     ///< the clamps' section frames
-  std::vector<Motion> obstacles;   ///< of the bodies given at construction, in their order
+  Motion a, b;                    ///< the clamps' section frames
+  std::vector<Motion> obstacles;  ///< of the bodies given at construction, in their order
 };
 
 struct StepOutcome {
   bool ok = true;
-  int iterations = 0;    ///< Newton iterations, over all substeps
-  int substeps = 1;      ///< more than one where the step had to be retried smaller
-  std::string message;   ///< why it failed, where it did
+  int iterations = 0;   ///< Newton iterations, over all substeps
+  int substeps = 1;     ///< more than one where the step had to be retried smaller
+  std::string message;  ///< why it failed, where it did
 };
 
 /// One place where the cable presses on a body.
 struct ContactPoint {
-  int obstacle = 0;                ///< index of the body
-  double s = 0;                    ///< arc length [m]
+  int obstacle = 0;                     ///< index of the body
+  double s = 0;                         ///< arc length [m]
   Eigen::Vector3d position_W, force_W;  ///< on the cable's surface [m]; on the cable [N]
-  double penetration = 0;          ///< [m]
+  double penetration = 0;               ///< [m]
 };
 
 /// What a cable tells about its state; vectors in W.
 struct CableReport {
-  Eigen::Vector3d apex, apex_velocity;         ///< [m], [m/s]
-  double curvature_max = 0;                    ///< [1/m]
-  double clearance = 0;                        ///< surface to the nearest body [m]; negative: penetration; +inf: none within reach
-  double contact_force = 0;                    ///< sum of the normal forces' magnitudes [N]
-  double tension_max = 0;                      ///< largest axial force [N] (positive: tension)
-  Eigen::Vector3d force_a, moment_a;           ///< by clamp a on the cable [N], [N m]
+  Eigen::Vector3d apex, apex_velocity;  ///< [m], [m/s]
+  double curvature_max = 0;             ///< [1/m]
+  double clearance =
+      0;  ///< surface to the nearest body [m]; negative: penetration; +inf: none within reach
+  double contact_force = 0;           ///< sum of the normal forces' magnitudes [N]
+  double tension_max = 0;             ///< largest axial force [N] (positive: tension)
+  Eigen::Vector3d force_a, moment_a;  ///< by clamp a on the cable [N], [N m]
   Eigen::Vector3d force_b, moment_b;
 };
 
@@ -55,10 +56,12 @@ class CableSimulation {
   CableSimulation(CableSimulation&&) noexcept;
   CableSimulation& operator=(CableSimulation&&) noexcept;
 
-  /// Static equilibrium at these poses (reached without twist or loop from the straight cable), moving along rigidly with clamp a.
+  /// Static equilibrium at these poses (reached without twist or loop from the straight cable),
+  /// moving along rigidly with clamp a.
   StepOutcome Settle(const Surroundings& now);
 
-  /// Advances by `dt` [s] to the instant at which `then` holds. On failure the state stays the last good one.
+  /// Advances by `dt` [s] to the instant at which `then` holds. On failure the state stays the last
+  /// good one.
   StepOutcome Step(double dt, const Surroundings& then);
 
   const CableModel& model() const;
@@ -68,7 +71,8 @@ class CableSimulation {
   /// Magnitude of the bending curvature in each element [1/m], `elements` values.
   std::vector<double> curvatures() const;
   std::vector<ContactPoint> contacts() const;
-  CableReport Report() const;
+  /// Not const: it remembers distances, which makes the next report cheap.
+  CableReport Report();
 
  private:
   struct Impl;
