@@ -10,9 +10,10 @@
 
 namespace cosserat_cable {
 
-/// Where an end is clamped: the section frame's pose in a link, a3 (z) along growing s at both ends.
+/// Where an end is clamped: the section frame's pose in a link, a3 (z) along growing s at both
+/// ends.
 struct ClampModel {
-  std::string link;
+  std::string link;  ///< empty for a specimen, whose clamps its measurement set knows
   Pose X_LC;
 };
 
@@ -21,42 +22,60 @@ struct LumpedMass {
   double mass;  ///< [kg]
 };
 
-/// A cable as its file says it: geometry, effective section parameters, clamps. Defaults are already filled in
-/// (EA, GA and the critical damping of eq. 10), so every number here is finite. SI units.
+/// A cable as its file says it: geometry, effective section parameters, clamps. Defaults are
+/// already filled in (EA, GA and the critical damping of eq. 10), so every number here is finite.
+/// SI units.
 struct CableModel {
   std::string name;
   std::string reference;  ///< link that telemetry and markers are given in
   ClampModel a, b;
 
-  double length = 0;           ///< L [m], free length between the clamps
-  double diameter = 0;         ///< d [m]
-  double mass_per_length = 0;  ///< rhoA [kg/m]
-  double EI1 = 0, EI2 = 0;     ///< bending stiffness about a1, a2 [N m^2]
-  double GJ = 0;               ///< torsional stiffness [N m^2]
-  double GA1 = 0, GA2 = 0;     ///< shear stiffness [N]
-  double EA = 0;               ///< axial stiffness [N]
+  double length = 0;                            ///< L [m], free length between the clamps
+  double diameter = 0;                          ///< d [m]
+  double mass_per_length = 0;                   ///< rhoA [kg/m]
+  double EI1 = 0, EI2 = 0;                      ///< bending stiffness about a1, a2 [N m^2]
+  double GJ = 0;                                ///< torsional stiffness [N m^2]
+  double GA1 = 0, GA2 = 0;                      ///< shear stiffness [N]
+  double EA = 0;                                ///< axial stiffness [N]
   double eta_EI1 = 0, eta_EI2 = 0, eta_GJ = 0;  ///< Kelvin-Voigt coefficients [N m^2 s]
   double eta_GA1 = 0, eta_GA2 = 0, eta_EA = 0;  ///< [N s]
   std::vector<LumpedMass> masses;
 
-  double apex_s = 0;      ///< material point whose motion is reported [m], default L/2
+  double apex_s = 0;  ///< material point whose motion is reported [m], default L/2
   int elements = 40;
   std::vector<std::string> avoid;  ///< links whose collision geometry the cable may touch
   ContactLaw contact;
+  std::vector<std::string>
+      uncertain;  ///< keys that identification may adjust; unused in simulation
 
   double rhoI() const { return mass_per_length * diameter * diameter / 16; }  ///< [kg m]
   double rhoJ() const { return 2 * rhoI(); }                                  ///< [kg m]
 };
 
-/// A file with one cable (`cable:`) or with a vehicle's (`cables:`), and what else it sets.
-struct CableFile {
-  std::vector<CableModel> cables;
+/// Where a cable's file names what only the vehicle can confirm. Line 0 where nothing is named.
+struct CableMarks {
+  SourceMark cable;  ///< the cable's own entry
+  SourceMark name;
+  SourceMark reference;  ///< that of a's link where the file leaves the reference out
+  SourceMark a_link, b_link;
+  std::vector<SourceMark> avoid;  ///< one per link in CableModel::avoid
 };
 
-/// Reads a cable file. Every mistake goes to `problems` with file, line and key: unknown keys with the nearest
-/// known one, missing keys, wrong types, numbers that are not finite or out of range (a length of 200 is
-/// named as a likely slip of units), clamps and names that clash.
-/// Where `problems` grew, the result is not to be used.
+/// A file with one cable (`cable:`, a specimen, which needs no links) or a vehicle's (`cables:`).
+struct CableFile {
+  std::vector<CableModel> cables;
+  std::vector<CableMarks> marks;  ///< as many as cables
+  bool specimen = false;          ///< whether the file said `cable:`
+};
+
+/// Reads a cable file. Every mistake goes to `problems` with file, line and key, in the order of
+/// the lines: unknown keys with the nearest known one, missing keys, wrong types, numbers that are
+/// not finite or out of range (a length of 200 is named as a likely slip of units), names that
+/// clash. Where `problems` grew, the result is not to be used.
 CableFile LoadCableFile(const std::string& path, Problems* problems);
+
+/// The effective configuration: a whole cable file with every default filled in and types spelt
+/// out. It reads back to the same models, bit for bit.
+std::string WriteCableFile(const CableFile& file);
 
 }  // namespace cosserat_cable

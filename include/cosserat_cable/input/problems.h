@@ -2,11 +2,20 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace cosserat_cable {
 
-/// One mistake. Prints as "file:line: key: message"; parts that are unknown (line 0, empty key) are left out.
+/// A place in a user's file, kept so that what is found wrong later can still be said there.
+struct SourceMark {
+  std::string file;
+  int line = 0;     ///< from 1; 0 where there is none
+  std::string key;  ///< path of the key, e.g. "cables[2].EI"
+};
+
+/// One mistake. Prints as "file:line: key: message"; parts that are unknown (line 0, empty key) are
+/// left out.
 struct Problem {
   std::string file;
   int line = 0;
@@ -20,7 +29,17 @@ struct Problem {
 class Problems {
  public:
   void Add(std::string file, int line, std::string key, std::string message);
-  void Add(std::string file, std::string message) { Add(std::move(file), 0, "", std::move(message)); }
+  void Add(std::string file, std::string message) {
+    Add(std::move(file), 0, "", std::move(message));
+  }
+  void Add(const SourceMark& where, std::string message) {
+    Add(where.file, where.line, where.key, std::move(message));
+  }
+  /// Adds the others behind these.
+  void Append(const Problems& others);
+  /// Brings the problems of each file into the order of its lines (files, and problems on one line,
+  /// keep the order in which they were found) and drops those that only repeat another.
+  void SortByLine();
 
   bool empty() const { return problems_.empty(); }
   const std::vector<Problem>& all() const { return problems_; }
@@ -31,7 +50,8 @@ class Problems {
   std::vector<Problem> problems_;
 };
 
-/// The candidate nearest to `word` by edit distance, or "" where none is near enough to be meant.
+/// The candidate nearest to `word` by edit distance (insertions, deletions, substitutions, swaps of
+/// neighbours; case does not count), or "" where none is near enough to be meant.
 std::string NearestWord(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace cosserat_cable

@@ -1,0 +1,76 @@
+// The keys of a cable as a user gave them, before defaults: shared by cable files and by whatever
+// else describes a cable in the same keys (the `cable` and `specimen` maps of measurement sets).
+//
+//     MapReader map(value);
+//     CableKeys keys = ReadCableKeys(&map);
+//     keys.FillFrom(keys_of_its_type);
+//     CableModel model = CompleteCable(keys, map.mark(), problems);
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/input/map_reader.h"
+#include "cosserat_cable/input/problems.h"
+
+namespace cosserat_cable {
+
+/// What a file says for one quantity.
+template <typename T>
+struct CableKey {
+  std::optional<T> value;  ///< nothing where the key is absent, or wrong (then it was reported)
+  SourceMark mark;         ///< line 0 where the key is absent
+  bool given() const { return mark.line > 0; }
+};
+
+/// A Kelvin-Voigt coefficient as a file may say it.
+struct DampingKey {
+  enum class Kind {
+    kNumber,
+    kCritical,  ///< `critical`: eq. (10) of the source paper
+    kUnknown    ///< `null`: to be identified; no simulation runs with it
+  };
+  Kind kind = Kind::kNumber;
+  double value = 0;  ///< where it is a number; [N m^2 s] for bending and torsion, [N s] otherwise
+};
+
+struct LumpedMassKey {
+  LumpedMass mass;
+  SourceMark s_mark;
+};
+
+struct LinkKey {
+  std::string name;
+  SourceMark mark;
+};
+
+/// Pairs are about, or along, a1 and a2; a file gives them by one key (EI) or by two (EI1, EI2).
+struct CableKeys {
+  CableKey<double> length, diameter, mass_per_length, GJ, EA, apex_s;
+  CableKey<std::array<double, 2>> EI, GA;
+  CableKey<DampingKey> eta_GJ, eta_EA;
+  CableKey<std::array<DampingKey, 2>> eta_EI, eta_GA;
+  CableKey<std::vector<LumpedMassKey>> masses;
+  CableKey<std::vector<std::string>> uncertain;
+  CableKey<int> elements;
+  CableKey<std::vector<LinkKey>> avoid;
+  CableKey<ContactLaw> contact;
+
+  /// Takes from `other` what is not given here. A pair is taken or left as a whole.
+  void FillFrom(const CableKeys& other);
+};
+
+/// Reads the keys above, and `extensions`, none of which this version knows. Nothing is required.
+CableKeys ReadCableKeys(MapReader* map);
+
+/// Fills in the defaults and checks what holds between keys. Missing keys, and damping that is
+/// unknown, are problems, the former at `cable`. Name, reference and clamps stay as they are.
+///
+/// Defaults (eqs. 9 and 10 of the source paper): EA = 16 min(EI1, EI2)/d^2, GA = EA/3,
+/// eta_EA = (4 L/pi) sqrt(rhoA EA), eta_GJ = (4 L/pi) sqrt(rhoJ GJ), eta_GA = 2 sqrt(rhoI GA).
+CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problems* problems);
+
+}  // namespace cosserat_cable

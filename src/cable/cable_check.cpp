@@ -1,0 +1,55 @@
+#include "cosserat_cable/cable/cable_check.h"
+
+#include <algorithm>
+
+#include "cosserat_cable/input/number_text.h"
+
+namespace cosserat_cable {
+namespace {
+
+// A cable that is strung taut is stretched, but hardly by more; beyond, a length or pose is wrong.
+constexpr double kMostStretch = 0.01;
+
+void CheckLink(const std::string& link, const SourceMark& mark,
+               const std::vector<std::string>& link_names, Problems* problems) {
+  // Line 0: the file names none, which reading has reported where it is a mistake.
+  if (mark.line == 0 || link.empty()) return;
+  if (std::find(link_names.begin(), link_names.end(), link) != link_names.end()) return;
+  const std::string nearest = NearestWord(link, link_names);
+  problems->Add(mark, "got '" + link + "', expected a link of the vehicle" +
+                          (nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
+}
+
+}  // namespace
+
+void CheckAgainstVehicle(const CableFile& file, const std::vector<std::string>& link_names,
+                         Problems* problems) {
+  Problems found;
+  for (std::size_t i = 0; i < file.cables.size(); ++i) {
+    const CableModel& cable = file.cables[i];
+    const CableMarks& marks = file.marks[i];
+    if (marks.a_link.line == 0 && marks.b_link.line == 0) {
+      found.Add(marks.cable,
+                "got a cable without clamps, expected links `a` and `b` of the vehicle");
+    }
+    CheckLink(cable.a.link, marks.a_link, link_names, &found);
+    CheckLink(cable.b.link, marks.b_link, link_names, &found);
+    CheckLink(cable.reference, marks.reference, link_names, &found);
+    const std::size_t avoided = std::min(cable.avoid.size(), marks.avoid.size());
+    for (std::size_t j = 0; j < avoided; ++j) {
+      CheckLink(cable.avoid[j], marks.avoid[j], link_names, &found);
+    }
+  }
+  found.SortByLine();
+  problems->Append(found);
+}
+
+void CheckClampDistance(const CableModel& cable, const CableMarks& marks, double distance,
+                        Problems* problems) {
+  if (distance <= (1 + kMostStretch) * cable.length) return;
+  problems->Add(marks.cable, "got clamps " + FormatRounded(distance) +
+                                 " m apart, expected at most the cable's length, " +
+                                 FormatRounded(cable.length) + " m");
+}
+
+}  // namespace cosserat_cable

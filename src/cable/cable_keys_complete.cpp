@@ -1,0 +1,168 @@
+#include <algorithm>
+#include <cmath>
+
+#include "cable_key_specs.h"
+#include "cosserat_cable/cable/cable_keys.h"
+#include "cosserat_cable/input/number_text.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// [kg/m^3] Ten times the densest metals: only a slip of units (g/m) is beyond.
+constexpr double kDensest = 2e5;
+// [Pa] Four times diamond: only a slip of units (N mm^2) is beyond.
+constexpr double kStiffest = 5e12;
+
+using Kind = DampingKey::Kind;
+
+bool IsUnknown(const DampingKey& damping) { return damping.kind == Kind::kUnknown; }
+bool IsUnknown(const std::array<DampingKey, 2>& pair) {
+  return IsUnknown(pair[0]) || IsUnknown(pair[1]);
+}
+
+double ValueOf(const DampingKey& damping, double critical) {
+  return damping.kind == Kind::kCritical ? critical : damping.value;
+}
+
+// Notes the problems of one cable, and whether there were any.
+class Completion {
+ public:
+  Completion(const SourceMark& cable, Problems* problems) : cable_(cable), problems_(problems) {}
+
+  bool ok() const { return ok_; }
+
+  void Report(const SourceMark& where, const std::string& message) {
+    problems_->Add(where, message);
+    ok_ = false;
+  }
+
+  template <typename T>
+  void Require(const CableKey<T>& key, const std::string& name, const std::string& expected) {
+    if (!key.given()) {
+      Report({cable_.file, cable_.line, cable_.key + "." + name}, "missing, expected " + expected);
+    } else if (!key.value) {
+      ok_ = false;  // reported when it was read
+    }
+  }
+
+  template <typename T>
+  void RequireKnown(const CableKey<T>& damping) {
+    if (damping.given() && !damping.value) ok_ = false;
+    if (!damping.value || !IsUnknown(*damping.value)) return;
+    Report(damping.mark, "got nothing (unknown), expected a number: a simulation needs one");
+  }
+
+  // Reports a value that another one makes impossible. `why` follows the bound.
+  void Bound(double value, double most, const SourceMark& mark, const std::string& why) {
+    if (value <= most) return;
+    Report(mark, "got " + FormatNumber(value) + ", expected at most " + FormatRounded(most) + why);
+  }
+
+ private:
+  SourceMark cable_;
+  Problems* problems_;
+  bool ok_ = true;
+};
+
+void CheckPresence(const CableKeys& keys, Completion* check) {
+  check->Require(keys.length, "length", LengthSpec().Expected());
+  check->Require(keys.diameter, "diameter", DiameterSpec().Expected());
+  check->Require(keys.mass_per_length, "mass_per_length", MassPerLengthSpec().Expected());
+  check->Require(keys.EI, "EI", BendingStiffnessSpec().Expected() + ", or EI1 and EI2");
+  check->Require(keys.GJ, "GJ", BendingStiffnessSpec().Expected());
+  check->Require(keys.eta_EI, "eta_EI",
+                 BendingDampingSpec().Expected() + ", or eta_EI1 and eta_EI2");
+  check->RequireKnown(keys.eta_EI);
+  check->RequireKnown(keys.eta_GJ);
+  check->RequireKnown(keys.eta_EA);
+  check->RequireKnown(keys.eta_GA);
+}
+
+void CheckAlongLength(const CableKeys& keys, Completion* check) {
+  if (!keys.length.value) return;
+  const double length = *keys.length.value;
+  if (keys.diameter.value) {
+    check->Bound(*keys.diameter.value, length / 2, keys.diameter.mark, " [m], half the length");
+  }
+  if (keys.apex_s.value) {
+    check->Bound(*keys.apex_s.value, length, keys.apex_s.mark, " [m], the length");
+  }
+  if (!keys.masses.value) return;
+  for (const LumpedMassKey& entry : *keys.masses.value) {
+    check->Bound(entry.mass.s, length, entry.s_mark, " [m], the length");
+  }
+}
+
+void CheckMaterial(const CableKeys& keys, Completion* check) {
+  if (!keys.diameter.value) return;
+  const double d = *keys.diameter.value;
+  if (keys.mass_per_length.value) {
+    check->Bound(*keys.mass_per_length.value, kDensest * kPi * d * d / 4, keys.mass_per_length.mark,
+                 " [kg/m], ten times a bar of the densest metal: is it in g/m?");
+  }
+  const std::string why = " [N m^2], four times a bar of diamond: is it in N mm^2?";
+  const double stiffest = kStiffest * kPi * std::pow(d, 4) / 64;
+  if (keys.EI.value) {
+    check->Bound(std::max((*keys.EI.value)[0], (*keys.EI.value)[1]), stiffest, keys.EI.mark, why);
+  }
+  if (keys.GJ.value) check->Bound(*keys.GJ.value, stiffest, keys.GJ.mark, why);
+}
+
+void FillStiffness(const CableKeys& keys, CableModel* model) {
+  model->EI1 = (*keys.EI.value)[0];
+  model->EI2 = (*keys.EI.value)[1];
+  model->GJ = *keys.GJ.value;
+  const double d = model->diameter;
+  model->EA = keys.EA.value.value_or(16 * std::min(model->EI1, model->EI2) / (d * d));
+  const double GA = model->EA / 3;
+  const std::array<double, 2> shear = keys.GA.value.value_or(std::array<double, 2>{GA, GA});
+  model->GA1 = shear[0];
+  model->GA2 = shear[1];
+}
+
+// Eq. (10) of the source paper where the file says `critical` or nothing.
+void FillDamping(const CableKeys& keys, CableModel* model) {
+  const DampingKey critical{Kind::kCritical, 0};
+  const double slowest = 4 * model->length / kPi;
+  model->eta_EI1 = (*keys.eta_EI.value)[0].value;
+  model->eta_EI2 = (*keys.eta_EI.value)[1].value;
+  model->eta_GJ =
+      ValueOf(keys.eta_GJ.value.value_or(critical), slowest * std::sqrt(model->rhoJ() * model->GJ));
+  model->eta_EA = ValueOf(keys.eta_EA.value.value_or(critical),
+                          slowest * std::sqrt(model->mass_per_length * model->EA));
+  const std::array<DampingKey, 2> shear =
+      keys.eta_GA.value.value_or(std::array<DampingKey, 2>{critical, critical});
+  model->eta_GA1 = ValueOf(shear[0], 2 * std::sqrt(model->rhoI() * model->GA1));
+  model->eta_GA2 = ValueOf(shear[1], 2 * std::sqrt(model->rhoI() * model->GA2));
+}
+
+}  // namespace
+
+CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problems* problems) {
+  Completion check(cable, problems);
+  CheckPresence(keys, &check);
+  CheckAlongLength(keys, &check);
+  CheckMaterial(keys, &check);
+  CableModel model;
+  if (!check.ok()) return model;
+
+  model.length = *keys.length.value;
+  model.diameter = *keys.diameter.value;
+  model.mass_per_length = *keys.mass_per_length.value;
+  FillStiffness(keys, &model);
+  FillDamping(keys, &model);
+  if (keys.masses.value) {
+    for (const LumpedMassKey& entry : *keys.masses.value) model.masses.push_back(entry.mass);
+  }
+  model.apex_s = keys.apex_s.value.value_or(model.length / 2);
+  model.elements = keys.elements.value.value_or(model.elements);
+  if (keys.avoid.value) {
+    for (const LinkKey& link : *keys.avoid.value) model.avoid.push_back(link.name);
+  }
+  model.contact = keys.contact.value.value_or(model.contact);
+  model.uncertain = keys.uncertain.value.value_or(model.uncertain);
+  return model;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,196 @@
+#include <algorithm>
+#include <set>
+
+#include "cable_key_specs.h"
+#include "cosserat_cable/cable/cable_keys.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr int kFewestElements = 4;
+constexpr int kMostElements = 1000;
+
+// What `uncertain` may name: every numeric key of a cable, and the one of a rig's disc.
+const std::vector<std::string>& NumericKeys() {
+  static const std::vector<std::string> keys = {"length",  "diameter",    "mass_per_length",
+                                                "EI",      "EI1",         "EI2",
+                                                "GJ",      "EA",          "GA",
+                                                "GA1",     "GA2",         "eta_EI",
+                                                "eta_EI1", "eta_EI2",     "eta_GJ",
+                                                "eta_EA",  "eta_GA",      "eta_GA1",
+                                                "eta_GA2", "disc.inertia"};
+  return keys;
+}
+
+enum class Critical { kKnown, kNone };
+
+std::optional<DampingKey> ParseDamping(const YamlValue& value, const NumberSpec& spec,
+                                       Critical critical) {
+  if (value.IsNull()) return DampingKey{DampingKey::Kind::kUnknown, 0};
+  if (value.IsText("critical")) {
+    if (critical == Critical::kKnown) return DampingKey{DampingKey::Kind::kCritical, 0};
+    value.ReportUnexpected(spec.Expected() + ": eq. (10) gives no critical damping in bending");
+    return std::nullopt;
+  }
+  NumberSpec expected = spec;
+  if (critical == Critical::kKnown) expected.Or("'critical'");
+  const std::optional<double> number = value.Number(expected);
+  if (!number) return std::nullopt;
+  return DampingKey{DampingKey::Kind::kNumber, *number};
+}
+
+// A quantity given by one key (EI), or by two for the directions a1 and a2 (EI1, EI2).
+template <typename T, typename Parse>
+CableKey<std::array<T, 2>> ReadPair(MapReader* map, const std::string& key, const Parse& parse) {
+  const YamlValue both = map->Optional(key);
+  const YamlValue first = map->Optional(key + "1");
+  const YamlValue second = map->Optional(key + "2");
+  CableKey<std::array<T, 2>> pair;
+  const YamlValue& one = first.given() ? first : second;
+  if (both.given()) {
+    pair.mark = both.mark();
+    if (const std::optional<T> value = parse(both)) pair.value = {*value, *value};
+    if (one.given()) {
+      one.Report("got this beside " + key + ", expected either " + key + ", or " + key + "1 and " +
+                 key + "2");
+    }
+  } else if (one.given()) {
+    pair.mark = one.mark();
+    if (!first.given() || !second.given()) {
+      one.Report("got this alone, expected " + key + "1 and " + key + "2, or " + key);
+    }
+    const std::optional<T> values[2] = {parse(first), parse(second)};
+    if (values[0] && values[1]) pair.value = {*values[0], *values[1]};
+  }
+  return pair;
+}
+
+CableKey<double> ReadNumber(const YamlValue& value, const NumberSpec& spec) {
+  if (!value.given()) return {};
+  return {value.Number(spec), value.mark()};
+}
+
+CableKey<std::vector<LumpedMassKey>> ReadMasses(const YamlValue& value) {
+  if (!value.given()) return {};
+  std::vector<LumpedMassKey> masses;
+  for (const YamlValue& item : value.Items("a list of masses {s: ..., mass: ...}")) {
+    MapReader map(item, "a mass {s: ..., mass: ...}");
+    const YamlValue s = map.Required("s");
+    const std::optional<double> s_value = s.Number(ArcLengthSpec());
+    const std::optional<double> mass = map.Required("mass").Number(LumpedMassSpec());
+    if (s_value && mass) masses.push_back({{*s_value, *mass}, s.mark()});
+  }
+  return {masses, value.mark()};
+}
+
+CableKey<std::vector<std::string>> ReadUncertain(const YamlValue& value) {
+  if (!value.given()) return {};
+  std::vector<std::string> keys;
+  for (const YamlValue& item : value.Items("a list of the names of numeric keys")) {
+    if (const auto key = item.OneOf(NumericKeys())) keys.push_back(*key);
+  }
+  return {keys, value.mark()};
+}
+
+CableKey<std::vector<LinkKey>> ReadAvoid(const YamlValue& value) {
+  if (!value.given()) return {};
+  std::vector<LinkKey> links;
+  std::set<std::string> names;
+  for (const YamlValue& item : value.Items("a list of links")) {
+    const std::optional<std::string> link = item.Text("the name of a link");
+    if (!link) continue;
+    if (!names.insert(*link).second)
+      item.Report("got " + item.Shown() + " twice, expected it once");
+    links.push_back({*link, item.mark()});
+  }
+  return {links, value.mark()};
+}
+
+CableKey<double> ReadApex(const YamlValue& value) {
+  MapReader map(value, "a point {s: ...}");
+  const YamlValue s = map.Required("s");
+  if (!value.given()) return {};
+  return {s.Number(ArcLengthSpec()), s.mark()};
+}
+
+CableKey<ContactLaw> ReadContact(const YamlValue& value) {
+  MapReader map(value, "a law {stiffness: ..., smoothing: ..., damping: ...}");
+  ContactLaw law;
+  law.stiffness = map.Optional("stiffness").Number(ContactStiffnessSpec()).value_or(law.stiffness);
+  law.smoothing = map.Optional("smoothing").Number(ContactSmoothingSpec()).value_or(law.smoothing);
+  law.damping = map.Optional("damping").Number(ContactDampingSpec()).value_or(law.damping);
+  if (!value.given()) return {};
+  return {law, value.mark()};
+}
+
+void RefuseExtensions(const YamlValue& value) {
+  if (!value.IsEmpty()) value.ReportUnexpected("none: this version knows no extensions");
+}
+
+template <typename T>
+void Fill(CableKey<T>* key, const CableKey<T>& other) {
+  if (!key->given()) *key = other;
+}
+
+}  // namespace
+
+CableKeys ReadCableKeys(MapReader* map) {
+  CableKeys keys;
+  keys.length = ReadNumber(map->Optional("length"), LengthSpec());
+  keys.diameter = ReadNumber(map->Optional("diameter"), DiameterSpec());
+  keys.mass_per_length = ReadNumber(map->Optional("mass_per_length"), MassPerLengthSpec());
+  keys.EI = ReadPair<double>(
+      map, "EI", [](const YamlValue& value) { return value.Number(BendingStiffnessSpec()); });
+  keys.GJ = ReadNumber(map->Optional("GJ"), BendingStiffnessSpec());
+  keys.EA = ReadNumber(map->Optional("EA"), AxialStiffnessSpec());
+  keys.GA = ReadPair<double>(
+      map, "GA", [](const YamlValue& value) { return value.Number(AxialStiffnessSpec()); });
+
+  const auto read_damping = [map](const std::string& key, const NumberSpec& spec) {
+    const YamlValue value = map->Optional(key);
+    if (!value.given()) return CableKey<DampingKey>();
+    return CableKey<DampingKey>{ParseDamping(value, spec, Critical::kKnown), value.mark()};
+  };
+  keys.eta_EI = ReadPair<DampingKey>(map, "eta_EI", [](const YamlValue& value) {
+    return ParseDamping(value, BendingDampingSpec(), Critical::kNone);
+  });
+  keys.eta_GJ = read_damping("eta_GJ", BendingDampingSpec());
+  keys.eta_EA = read_damping("eta_EA", AxialDampingSpec());
+  keys.eta_GA = ReadPair<DampingKey>(map, "eta_GA", [](const YamlValue& value) {
+    return ParseDamping(value, AxialDampingSpec(), Critical::kKnown);
+  });
+
+  keys.masses = ReadMasses(map->Optional("masses"));
+  keys.uncertain = ReadUncertain(map->Optional("uncertain"));
+  keys.apex_s = ReadApex(map->Optional("apex"));
+  const YamlValue elements = map->Optional("elements");
+  if (elements.given()) {
+    keys.elements = {elements.Integer(kFewestElements, kMostElements), elements.mark()};
+  }
+  keys.avoid = ReadAvoid(map->Optional("avoid"));
+  keys.contact = ReadContact(map->Optional("contact"));
+  RefuseExtensions(map->Optional("extensions"));
+  return keys;
+}
+
+void CableKeys::FillFrom(const CableKeys& other) {
+  Fill(&length, other.length);
+  Fill(&diameter, other.diameter);
+  Fill(&mass_per_length, other.mass_per_length);
+  Fill(&EI, other.EI);
+  Fill(&GJ, other.GJ);
+  Fill(&EA, other.EA);
+  Fill(&GA, other.GA);
+  Fill(&eta_EI, other.eta_EI);
+  Fill(&eta_GJ, other.eta_GJ);
+  Fill(&eta_EA, other.eta_EA);
+  Fill(&eta_GA, other.eta_GA);
+  Fill(&masses, other.masses);
+  Fill(&uncertain, other.uncertain);
+  Fill(&apex_s, other.apex_s);
+  Fill(&elements, other.elements);
+  Fill(&avoid, other.avoid);
+  Fill(&contact, other.contact);
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,80 @@
+#include "cosserat_cable/input/map_reader.h"
+
+#include <algorithm>
+
+namespace cosserat_cable {
+namespace {
+
+std::string JoinPath(const std::string& map, const std::string& key) {
+  return map.empty() ? key : map + "." + key;
+}
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+}  // namespace
+
+MapReader::MapReader(const YamlValue& value, const std::string& expected) : value_(value) {
+  if (!value_.IsMap()) {
+    value_.ReportUnexpected(expected);
+    return;
+  }
+  std::map<std::string, int> first_lines;
+  for (const auto& entry : value_.node_) {
+    const SourceMark& here = value_.mark();
+    const int line = entry.first.Mark().line + 1;
+    if (!entry.first.IsScalar()) {
+      value_.problems_->Add(here.file, line, here.key,
+                            "got a key that is not a text, expected one");
+      continue;
+    }
+    const std::string& key = entry.first.Scalar();
+    const YamlValue item(YamlValue::State::kGiven, entry.second,
+                         {here.file, line, JoinPath(here.key, key)}, value_.problems_);
+    const auto inserted = first_lines.emplace(key, line);
+    if (!inserted.second) {
+      item.Report("got this key a second time, expected it once: it stands on line " +
+                  std::to_string(inserted.first->second) + " already");
+      continue;
+    }
+    entries_.emplace_back(key, item);
+  }
+}
+
+MapReader::~MapReader() {
+  for (const auto& [key, value] : entries_) {
+    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    const std::string nearest = NearestWord(key, known_);
+    value.Report(nearest.empty() ? "got an unknown key, expected one of " + Join(known_)
+                                 : "got an unknown key, did you mean '" + nearest + "'?");
+  }
+}
+
+YamlValue MapReader::Absent(const std::string& key, YamlValue::State state) const {
+  return YamlValue(state, YAML::Node(),
+                   {value_.mark().file, value_.mark().line, JoinPath(value_.mark().key, key)},
+                   value_.problems_);
+}
+
+YamlValue MapReader::Required(const std::string& key) {
+  YamlValue value = Optional(key);
+  return value.given() || !ok() ? value : Absent(key, YamlValue::State::kMissing);
+}
+
+YamlValue MapReader::Optional(const std::string& key) {
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+  for (const auto& entry : entries_) {
+    if (entry.first == key) return entry.second;
+  }
+  return Absent(key, YamlValue::State::kAbsent);
+}
+
+std::vector<std::pair<std::string, YamlValue>> MapReader::Entries() {
+  for (const auto& entry : entries_) known_.push_back(entry.first);
+  return entries_;
+}
+
+}  // namespace cosserat_cable

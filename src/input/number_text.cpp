@@ -1,0 +1,80 @@
+#include "cosserat_cable/input/number_text.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <locale>
+#include <set>
+#include <sstream>
+
+namespace cosserat_cable {
+namespace {
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+
+bool IsDecimalNumber(const std::string& text) {
+  auto at = text.begin();
+  const auto skip_sign = [&] {
+    if (at != text.end() && (*at == '+' || *at == '-')) ++at;
+  };
+  const auto skip_digits = [&] {
+    const auto from = at;
+    at = std::find_if_not(at, text.end(), IsDigit);
+    return at - from;
+  };
+  skip_sign();
+  auto digits = skip_digits();
+  if (at != text.end() && *at == '.') {
+    ++at;
+    digits += skip_digits();
+  }
+  if (digits == 0) return false;
+  if (at != text.end() && (*at == 'e' || *at == 'E')) {
+    ++at;
+    skip_sign();
+    if (skip_digits() == 0) return false;
+  }
+  return at == text.end();
+}
+
+bool IsNonFiniteWord(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (!text.empty() && (text[0] == '+' || text[0] == '-')) text.erase(0, 1);
+  if (!text.empty() && text[0] == '.') text.erase(0, 1);
+  static const std::set<std::string> words = {"nan", "inf", "infinity"};
+  return words.count(text) > 0;
+}
+
+}  // namespace
+
+NumberText ParseNumber(const std::string& text) {
+  if (IsNonFiniteWord(text)) return {NumberText::Kind::kNonFinite, 0};
+  if (!IsDecimalNumber(text)) return {};
+  // A stream of the classic locale: strtod would expect a decimal comma in some places of the
+  // world.
+  std::istringstream stream(text);
+  stream.imbue(std::locale::classic());
+  double value = 0;
+  if (!(stream >> value)) return {NumberText::Kind::kNonFinite, 0};  // it overflowed
+  return {NumberText::Kind::kFinite, value};
+}
+
+std::string FormatRounded(double value, int digits) {
+  std::ostringstream stream;
+  stream.imbue(std::locale::classic());
+  stream.precision(digits);
+  stream << value;
+  return stream.str();
+}
+
+std::string FormatNumber(double value) {
+  constexpr int kEnough = std::numeric_limits<double>::max_digits10;
+  for (int digits = 6; digits < kEnough; ++digits) {
+    const std::string text = FormatRounded(value, digits);
+    if (ParseNumber(text).value == value) return text;
+  }
+  return FormatRounded(value, kEnough);
+}
+
+}  // namespace cosserat_cable
