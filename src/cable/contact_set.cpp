@@ -1,5 +1,6 @@
 #include "contact_set.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cosserat_cable/math/small_eigen.h"
@@ -37,25 +38,68 @@ ContactSet::ContactSet(const CableModel& model, std::vector<const Body*> bodies)
   if (!bodies_.empty()) sites_ = PlaceContactSites(model);
   trackers_.resize(sites_.size() * bodies_.size());
   found_.resize(trackers_.size());
+  watches_.resize(bodies_.size());
   planes_.reserve(trackers_.size());
+}
+
+ContactSet::Sphere ContactSet::Bound(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& p : points) box.extend(p);
+  return {box.center(), 0.5 * box.diagonal().norm()};
+}
+
+bool ContactSet::OutOfReach(std::size_t b, const Pose& X_BW, const Sphere& bound_W,
+                            const std::vector<Eigen::Vector3d>& nodes_W) {
+  Watch& watch = watches_[b];
+  const double needed = bound_W.radius + radius_ + kMargin;
+  if (bodies_[b]->LowerBound(X_BW * bound_W.centre) > needed) {
+    if (watch.known) Forget(b);
+    return true;
+  }
+  if (watch.slack <= 0) return false;
+  // A site lies between two nodes and moves by no more than the farther-moving one.
+  const Eigen::Matrix3d R_BW = X_BW.q.toRotationMatrix();
+  const double square = watch.slack * watch.slack;
+  for (std::size_t i = 0; i < nodes_W.size(); ++i)
+    if ((R_BW * nodes_W[i] + X_BW.p - watch.nodes_B[i]).squaredNorm() >= square) return false;
+  return true;
+}
+
+void ContactSet::Forget(std::size_t b) {
+  const auto first = trackers_.begin() + b * sites_.size();
+  std::fill(first, first + sites_.size(), ContactTracker());
+  watches_[b].known = false;
+  watches_[b].slack = 0;
 }
 
 void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
                         const std::vector<Motion>& bodies_W) {
   planes_.clear();
+  if (bodies_.empty()) return;
+  const Sphere bound_W = Bound(nodes_W);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Motion& motion = bodies_W[b];
+    const Pose X_BW = motion.X.Inverse();
+    Watch& watch = watches_[b];
+    watch.searched = !OutOfReach(b, X_BW, bound_W, nodes_W);
+    if (!watch.searched) continue;
+
     const Eigen::Matrix3d R_WB = motion.X.q.toRotationMatrix();
     const Eigen::Vector3d omega_W = R_WB * motion.omega;
+    watch.nodes_B.resize(nodes_W.size());
+    for (std::size_t i = 0; i < nodes_W.size(); ++i)
+      watch.nodes_B[i] = R_WB.transpose() * (nodes_W[i] - motion.X.p);
+    watch.slack = kSearchReach;
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       const ContactSite& site = sites_[i];
-      const Eigen::Vector3d p_W =
-          (1 - site.xi) * nodes_W[site.element] + site.xi * nodes_W[site.element + 1];
-      const std::size_t k = i * bodies_.size() + b;
+      const std::size_t k = b * sites_.size() + i;
       Found& found = found_[k];
-      found.p_B = R_WB.transpose() * (p_W - motion.X.p);
+      found.p_B =
+          (1 - site.xi) * watch.nodes_B[site.element] + site.xi * watch.nodes_B[site.element + 1];
       found.clearance = trackers_[k].Look(*bodies_[b], found.p_B, radius_, kMargin, kSearchReach);
-      if (!found.clearance.exact || found.clearance.distance > radius_ + kMargin) continue;
+      const double apart = found.clearance.distance - radius_ - kMargin;
+      watch.slack = std::min(watch.slack, apart);
+      if (!found.clearance.exact || apart > 0) continue;
       const Eigen::Vector3d arm = R_WB * found.clearance.nearest;
       planes_.push_back({static_cast<int>(i), static_cast<int>(b), ToSmall(motion.X.p + arm),
                          ToSmall(R_WB * found.clearance.normal),
@@ -65,12 +109,16 @@ void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
 }
 
 void ContactSet::Accept() {
-  for (std::size_t k = 0; k < trackers_.size(); ++k)
-    trackers_[k].Accept(found_[k].p_B, found_[k].clearance);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!watches_[b].searched) continue;
+    watches_[b].known = true;
+    for (std::size_t k = b * sites_.size(); k < (b + 1) * sites_.size(); ++k)
+      trackers_[k].Accept(found_[k].p_B, found_[k].clearance);
+  }
 }
 
 void ContactSet::Reset() {
-  for (ContactTracker& tracker : trackers_) tracker = ContactTracker();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) Forget(b);
   planes_.clear();
 }
 

@@ -58,14 +58,32 @@ class ContactSet : public rod::Load {
     double penetration, rate;
     Vec3<double> position;
   };
+  /// When a body was last searched site by site, and how far the cable may move before it must be
+  /// again.
+  struct Watch {
+    bool searched = false;                 // in the last call of Search
+    bool known = false;                    // whether the trackers remember anything
+    double slack = 0;                      // [m]; 0: search every time
+    std::vector<Eigen::Vector3d> nodes_B;  // then [m]
+  };
+  struct Sphere {
+    Eigen::Vector3d centre;
+    double radius;
+  };
+  static Sphere Bound(const std::vector<Eigen::Vector3d>& points);
+  /// True where no site can be within the radius and the margin of body `b`; updates its watch.
+  bool OutOfReach(std::size_t b, const Pose& X_BW, const Sphere& bound_W,
+                  const std::vector<Eigen::Vector3d>& nodes_W);
+  void Forget(std::size_t b);
   Gap MeasureGap(const Plane& plane, const rod::Centreline& rod) const;
 
   double radius_;
   ContactLaw law_;
   std::vector<const Body*> bodies_;
   std::vector<ContactSite> sites_;
-  std::vector<ContactTracker> trackers_;  // site-major
+  std::vector<ContactTracker> trackers_;  // body-major
   std::vector<Found> found_;              // likewise, of the last search
+  std::vector<Watch> watches_;            // by body
   std::vector<Plane> planes_;
 };
 

@@ -44,25 +44,26 @@ struct Block6 {
 template <class T>
 class BlockTridiagonal {
  public:
-  explicit BlockTridiagonal(int nodes)
-      : diagonal_(nodes), lower_(nodes), unit_(nodes), inverse_(nodes), coupling_(nodes) {}
+  explicit BlockTridiagonal(int nodes) : diagonal_(nodes), lower_(nodes), inverse_(nodes) {}
 
-  /// Block (i, i); only its lower triangle is read.
+  /// Block (i, i); only its lower triangle is read. Overwritten by Factorise.
   Block6<T>& diagonal(int i) { return diagonal_[i]; }
-  /// Block (i + 1, i).
+  /// Block (i + 1, i). Overwritten by Factorise.
   Block6<T>& lower(int i) { return lower_[i]; }
 
-  /// Factorises nodes `first`..`last` (inclusive); returns the smallest pivot relative to its
-  /// diagonal entry: positive exactly where the matrix is positive definite.
+  /// Factorises nodes `first`..`last` (inclusive) in place. Returns the smallest pivot, or
+  /// 1 where that is larger: positive exactly where the matrix is positive definite.
   T Factorise(int first, int last) {
     first_ = first;
     last_ = last;
     T smallest = T(1);
     for (int i = first; i <= last; ++i) {
-      Block6<T> s = diagonal_[i];
-      if (i > first) SubtractCoupling(coupling_[i - 1], inverse_[i - 1], &s);
-      smallest = Min(smallest, FactoriseBlock(s, diagonal_[i], &unit_[i], &inverse_[i]));
-      if (i < last) coupling_[i] = SolveUnitLower(unit_[i], lower_[i]);
+      Block6<T>& s = diagonal_[i];
+      if (i > first) SubtractCoupling(lower_[i - 1], inverse_[i - 1], &s);
+      FactoriseBlock(&s, &inverse_[i]);
+#pragma GCC unroll 6
+      for (int k = 0; k < 6; ++k) smallest = s[k][k] < smallest ? s[k][k] : smallest;
+      if (i < last) SolveUnitLower(s, &lower_[i]);
     }
     return smallest;
   }
@@ -71,92 +72,97 @@ class BlockTridiagonal {
   void Solve(Vec6<T>* x) const {
     for (int i = first_; i <= last_; ++i) {
       Vec6<T> b = x[i];
-      if (i > first_)  // b -= W^T z, W = coupling
+      if (i > first_) {  // b -= W^T z
+        const Block6<T>& w = lower_[i - 1];
+        const Vec6<T>& z = x[i - 1];
 #pragma GCC unroll 6
-        for (int k = 0; k < 6; ++k)
+        for (int c = 0; c < 6; ++c)
+          b[c] -= ((w[0][c] * z[0] + w[1][c] * z[1]) + (w[2][c] * z[2] + w[3][c] * z[3])) +
+                  (w[4][c] * z[4] + w[5][c] * z[5]);
+      }
+      const Block6<T>& unit = diagonal_[i];
 #pragma GCC unroll 6
-          for (int c = 0; c < 6; ++c) b[c] -= coupling_[i - 1][k][c] * x[i - 1][k];
+      for (int c = 0; c < 5; ++c)
 #pragma GCC unroll 6
-      for (int r = 1; r < 6; ++r)
-#pragma GCC unroll 6
-        for (int c = 0; c < r; ++c) b[r] -= unit_[i][r][c] * b[c];
+        for (int r = c + 1; r < 6; ++r) b[r] -= unit[r][c] * b[c];
 #pragma GCC unroll 6
       for (int r = 0; r < 6; ++r) x[i][r] = b[r] * inverse_[i][r];
     }
     for (int i = last_; i >= first_; --i) {
       Vec6<T> b = x[i];
-      if (i < last_)
+      if (i < last_) {  // b -= D^{-1} W x
+        const Block6<T>& w = lower_[i];
+        const Vec6<T>& z = x[i + 1];
 #pragma GCC unroll 6
-        for (int r = 0; r < 6; ++r) {
-          T sum = T(0);
+        for (int r = 0; r < 6; ++r)
+          b[r] -= inverse_[i][r] *
+                  (((w[r][0] * z[0] + w[r][1] * z[1]) + (w[r][2] * z[2] + w[r][3] * z[3])) +
+                   (w[r][4] * z[4] + w[r][5] * z[5]));
+      }
+      const Block6<T>& unit = diagonal_[i];
 #pragma GCC unroll 6
-          for (int c = 0; c < 6; ++c) sum += coupling_[i][r][c] * x[i + 1][c];
-          b[r] -= sum * inverse_[i][r];
-        }
+      for (int c = 5; c > 0; --c)
 #pragma GCC unroll 6
-      for (int r = 4; r >= 0; --r)
-#pragma GCC unroll 6
-        for (int c = r + 1; c < 6; ++c) b[r] -= unit_[i][c][r] * b[c];
+        for (int r = 0; r < c; ++r) b[r] -= unit[c][r] * b[c];
       x[i] = b;
     }
   }
 
  private:
-  static T Min(const T& a, const T& b) { return b < a ? b : a; }
-
   /// s -= W^T diag(1/d) W, lower triangle.
   static void SubtractCoupling(const Block6<T>& w, const Vec6<T>& inverse, Block6<T>* s) {
+    Block6<T> scaled;
 #pragma GCC unroll 6
     for (int k = 0; k < 6; ++k)
 #pragma GCC unroll 6
-      for (int r = 0; r < 6; ++r) {
-        const T scaled = w[k][r] * inverse[k];
+      for (int r = 0; r < 6; ++r) scaled[k][r] = w[k][r] * inverse[k];
 #pragma GCC unroll 6
-        for (int c = 0; c <= r; ++c) s->m[r][c] -= scaled * w[k][c];
-      }
+    for (int r = 0; r < 6; ++r)
+#pragma GCC unroll 6
+      for (int c = 0; c <= r; ++c)
+        s->m[r][c] -= ((scaled[0][r] * w[0][c] + scaled[1][r] * w[1][c]) +
+                       (scaled[2][r] * w[2][c] + scaled[3][r] * w[3][c])) +
+                      (scaled[4][r] * w[4][c] + scaled[5][r] * w[5][c]);
   }
 
-  static T FactoriseBlock(Block6<T>& s, const Block6<T>& original, Block6<T>* unit,
-                          Vec6<T>* inverse) {
-    T smallest = T(1);
+  /// Leaves the unit lower factor below the diagonal and the pivots on it.
+  static void FactoriseBlock(Block6<T>* block, Vec6<T>* inverse) {
+    Block6<T>& s = *block;
 #pragma GCC unroll 6
     for (int k = 0; k < 6; ++k) {
-      const T pivot = s[k][k];
-      smallest = Min(smallest, pivot / original[k][k]);
-      (*inverse)[k] = T(1) / pivot;
+      const T one_over = T(1) / s[k][k];
+      (*inverse)[k] = one_over;
+      T factor[6];
 #pragma GCC unroll 6
-      for (int r = k + 1; r < 6; ++r) {
-        const T factor = s[r][k] * (*inverse)[k];
+      for (int r = k + 1; r < 6; ++r) factor[r] = s[r][k] * one_over;
 #pragma GCC unroll 6
-        for (int c = k + 1; c <= r; ++c) s[r][c] -= factor * s[c][k];
-        (*unit)[r][k] = factor;
-      }
+      for (int r = k + 1; r < 6; ++r)
+#pragma GCC unroll 6
+        for (int c = k + 1; c <= r; ++c) s[r][c] -= factor[r] * s[c][k];
+#pragma GCC unroll 6
+      for (int r = k + 1; r < 6; ++r) s[r][k] = factor[r];
     }
-    return smallest;
   }
 
-  /// W = U^{-1} L^T with U unit lower triangular.
-  static Block6<T> SolveUnitLower(const Block6<T>& unit, const Block6<T>& lower) {
+  /// Overwrites the lower block L with W = U^{-1} L^T, U unit lower triangular.
+  static void SolveUnitLower(const Block6<T>& unit, Block6<T>* lower) {
     Block6<T> w;
 #pragma GCC unroll 6
     for (int r = 0; r < 6; ++r) {
 #pragma GCC unroll 6
-      for (int c = 0; c < 6; ++c) w[r][c] = lower[c][r];
+      for (int c = 0; c < 6; ++c) w[r][c] = lower->m[c][r];
 #pragma GCC unroll 6
-      for (int k = 0; k < r; ++k) {
-        const T factor = unit[r][k];
+      for (int k = 0; k < r; ++k)
 #pragma GCC unroll 6
-        for (int c = 0; c < 6; ++c) w[r][c] -= factor * w[k][c];
-      }
+        for (int c = 0; c < 6; ++c) w[r][c] -= unit[r][k] * w[k][c];
     }
-    return w;
+    *lower = w;
   }
 
   int first_ = 0, last_ = -1;
-  std::vector<Block6<T>> diagonal_, lower_;
-  std::vector<Block6<T>> unit_;      // strictly lower triangles of the blocks' unit factors
+  std::vector<Block6<T>> diagonal_;  // then: unit factors
+  std::vector<Block6<T>> lower_;     // then: W_i = U_i^{-1} L_{i+1,i}^T
   std::vector<Vec6<T>> inverse_;     // 1/pivot
-  std::vector<Block6<T>> coupling_;  // W_i
 };
 
 }  // namespace cosserat_cable::rod

@@ -46,27 +46,26 @@ SolveReport Rod::Equilibrate(const Load* load) {
   m.EvaluateForces();
   double current = energy();
   std::vector<NodeState> start;
-  std::vector<Vec6<Scalar>> gradient;
+  std::vector<Vec6<Scalar>> internal, gradient;  // minus the energy's, without and with the load
   while (report.iterations < kMaxIterations) {
     ++report.iterations;
-    m.AssembleTangent(0.0);
-    if (load) m.AddLoad(*load, true, 0.0);
-    gradient = m.rhs;
-
     // Newton direction, with the smallest shift that makes the Hessian positive definite.
-    for (double applied = 0;;) {
-      const double more = shift - applied;
+    internal = m.rhs;
+    for (;;) {
+      m.rhs = internal;
+      m.AssembleTangent(0.0);
+      if (load) m.AddLoad(*load, true, 0.0);
       for (int i = first; i <= last; ++i)
         for (int k = 0; k < 3; ++k) {
-          m.system.diagonal(i)[k][k] += more * translation_scale;
-          m.system.diagonal(i)[3 + k][3 + k] += more * rotation_scale;
+          m.system.diagonal(i)[k][k] += shift * translation_scale;
+          m.system.diagonal(i)[3 + k][3 + k] += shift * rotation_scale;
         }
-      applied = shift;
-      if (m.system.Factorise(first, last) > 0) break;
+      if (Factorise(&m.system, first, last) > 0) break;
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
     }
-    m.system.Solve(m.rhs.data());
+    gradient = m.rhs;
+    Solve(m.system, m.rhs.data());
     report.correction = m.CorrectionNorm();
     if (!std::isfinite(report.correction)) return report;
 
@@ -111,8 +110,8 @@ SolveReport Rod::Equilibrate(const Load* load) {
 
   m.node = m.trial;
   for (int e = 0; e < m.model.elements; ++e)
-    m.shear[e] = {m.shear1.Rest(m.element[e].gamma.x - m.law.gamma0.x),
-                  m.shear2.Rest(m.element[e].gamma.y - m.law.gamma0.y)};
+    m.shear[e] = {m.shear1.Rest(m.chain.gamma(e).x - m.law.gamma0.x),
+                  m.shear2.Rest(m.chain.gamma(e).y - m.law.gamma0.y)};
   // `rhs` holds forces in balance; at the clamps it holds what they must supply.
   if (load) m.AddLoad(*load, false, 0.0);
   std::fill(m.rate.begin(), m.rate.end(), NodeRates{});

@@ -25,8 +25,8 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   m.PrepareStatics();
   m.EvaluateForces();
   for (int e = 0; e < m.model.elements; ++e)
-    m.shear[e] = {m.shear1.Rest(m.element[e].gamma.x - m.law.gamma0.x),
-                  m.shear2.Rest(m.element[e].gamma.y - m.law.gamma0.y)};
+    m.shear[e] = {m.shear1.Rest(m.chain.gamma(e).x - m.law.gamma0.x),
+                  m.shear2.Rest(m.chain.gamma(e).y - m.law.gamma0.y)};
 }
 
 void Rod::AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
@@ -44,9 +44,9 @@ V3 Rod::velocity(int i) const { return impl_->node[i].v; }
 Pose Rod::pose(int i) const { return {ToEigen(impl_->node[i].r), ToEigen(impl_->node[i].q)}; }
 Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->node[i].omega); }
 Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->rate[i].v); }
-Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->element[e].n); }
-Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->element[e].m); }
-Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->element[e].kappa); }
+Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->chain.force(e)); }
+Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->chain.moment(e)); }
+Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->chain.kappa(e)); }
 
 // `rhs` of a held end keeps minus what is missing to its balance: the clamp supplies it.
 Wrench Rod::reaction_a() const {

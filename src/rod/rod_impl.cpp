@@ -56,8 +56,7 @@ Rod::Impl::Impl(const RodModel& m)
       algorithm(count),
       shear(m.elements),
       trial(count),
-      offset_F(m.elements),
-      element(m.elements),
+      chain(m.elements),
       system(count),
       rhs(count),
       increment(count),
@@ -83,7 +82,7 @@ Rod::Impl::Impl(const RodModel& m)
 void Rod::Impl::PrepareStatics() {
   law.C_F = {shear1.static_stiffness(), shear2.static_stiffness(), model.section.C_F.z()};
   law.V_F = law.V_M = V3{};
-  std::fill(offset_F.begin(), offset_F.end(), V3{});
+  chain.ClearOffsets();
 }
 
 void Rod::Impl::PrepareStep(double dt) {
@@ -93,31 +92,13 @@ void Rod::Impl::PrepareStep(double dt) {
   law.V_F = {shear1.V(), shear2.V(), model.section.V_F.z()};
   law.V_M = ToSmall(model.section.V_M);
   for (int e = 0; e < model.elements; ++e)
-    offset_F[e] = {shear1.Offset(shear[e][0]), shear2.Offset(shear[e][1]), 0.0};
+    chain.SetOffset(e, {shear1.Offset(shear[e][0]), shear2.Offset(shear[e][1]), 0.0});
 }
 
 void Rod::Impl::EvaluateForces() {
   for (int i = 0; i < count; ++i)
     rhs[i] = {{mass[i] * gravity.x, mass[i] * gravity.y, mass[i] * gravity.z, 0, 0, 0}};
-  for (int e = 0; e < model.elements; ++e) {
-    ElementState<Scalar>& state = element[e];
-    EvaluateStrain(trial[e], trial[e + 1], h, &state);
-    EvaluateStress(law, offset_F[e], &state);
-    const ElementForces<Scalar> forces = rod::EvaluateForces(state);
-    Vec6<Scalar>&a = rhs[e], &b = rhs[e + 1];
-    a[0] += forces.f.x;
-    a[1] += forces.f.y;
-    a[2] += forces.f.z;
-    b[0] -= forces.f.x;
-    b[1] -= forces.f.y;
-    b[2] -= forces.f.z;
-    a[3] -= forces.g1.x;
-    a[4] -= forces.g1.y;
-    a[5] -= forces.g1.z;
-    b[3] -= forces.g2.x;
-    b[4] -= forces.g2.y;
-    b[5] -= forces.g2.z;
-  }
+  chain.Evaluate(trial.data(), law, rhs.data());
 }
 
 void Rod::Impl::AddLoad(const Load& load, bool tangent, double rate_factor) {
@@ -126,31 +107,8 @@ void Rod::Impl::AddLoad(const Load& load, bool tangent, double rate_factor) {
 }
 
 void Rod::Impl::AssembleTangent(double rate_factor) {
-  const V3 C_F = law.C_F + rate_factor * law.V_F;
-  const V3 C_M = law.C_M + rate_factor * law.V_M;
-  // Only lower triangles of the diagonal blocks are read: quarter (0, 1) is never filled. An
-  // element sets the block of its second node and adds to that of its first.
-  Block6<Scalar>& front = system.diagonal(0);
-  front.SetQuarter(0, 0, {});
-  front.SetQuarter(1, 0, {});
-  front.SetQuarter(1, 1, {});
-  for (int e = 0; e < model.elements; ++e) {
-    const ElementTangent<Scalar> k = EvaluateTangent(element[e], h, C_F, C_M);
-    const Mat3<Scalar> r1_transposed = Transpose(k.r1), r2_transposed = Transpose(k.r2);
-    Block6<Scalar>& a = system.diagonal(e);
-    a.AddQuarter(0, 0, k.rr);
-    a.AddQuarter(1, 0, -r1_transposed);
-    a.AddQuarter(1, 1, k.t11);
-    Block6<Scalar>& b = system.diagonal(e + 1);
-    b.SetQuarter(0, 0, k.rr);
-    b.SetQuarter(1, 0, r2_transposed);
-    b.SetQuarter(1, 1, k.t22);
-    Block6<Scalar>& c = system.lower(e);
-    c.SetQuarter(0, 0, -k.rr);
-    c.SetQuarter(0, 1, k.r1);
-    c.SetQuarter(1, 0, -r2_transposed);
-    c.SetQuarter(1, 1, Transpose(k.t12));
-  }
+  chain.AssembleTangent(law.h, law.C_F + rate_factor * law.V_F, law.C_M + rate_factor * law.V_M,
+                        &system);
 }
 
 double Rod::Impl::CorrectionNorm() const {
@@ -170,8 +128,8 @@ double Rod::Impl::CorrectionNorm() const {
 
 double Rod::Impl::StrainEnergy() const {
   double energy = 0;
-  for (const ElementState<Scalar>& e : element) {
-    const V3 gamma = e.gamma - law.gamma0, kappa = e.kappa - law.kappa0;
+  for (int e = 0; e < model.elements; ++e) {
+    const V3 gamma = chain.gamma(e) - law.gamma0, kappa = chain.kappa(e) - law.kappa0;
     energy += 0.5 * h * (Dot(gamma, Scale(law.C_F, gamma)) + Dot(kappa, Scale(law.C_M, kappa)));
   }
   return energy;

@@ -7,19 +7,15 @@
 #include "block_tridiagonal.h"
 #include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/rod.h"
-#include "element.h"
+#include "element_chain.h"
 #include "shear_series.h"
+#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 
 using Scalar = double;
 using V3 = Vec3<Scalar>;
 using NodeState = Node<Scalar>;
-
-/// Rates of a node: of velocity and of body angular velocity.
-struct NodeRates {
-  V3 v, omega;
-};
 
 struct Rod::Impl : public Centreline {
   explicit Impl(const RodModel& m);
@@ -43,8 +39,7 @@ struct Rod::Impl : public Centreline {
 
   // ---- the iterate, and the stresses that belong to it
   std::vector<NodeState> trial;
-  std::vector<V3> offset_F;
-  std::vector<ElementState<Scalar>> element;
+  ElementChain chain;
   BlockTridiagonal<Scalar> system;
   std::vector<Vec6<Scalar>> rhs;        // minus the residual, then the correction
   std::vector<Vec6<Scalar>> increment;  // of the step: displacement, rotation vector

@@ -1,6 +1,7 @@
 // Rotations of the small angles that occur in one element or one time step, without trigonometry.
 #pragma once
 
+#include "cosserat_cable/math/lanes.h"
 #include "cosserat_cable/math/small.h"
 
 namespace cosserat_cable::rod {
@@ -12,22 +13,38 @@ struct ArcTangentSeries {
   T B;  ///< (1 - A (1 - x^2))/x^2
 };
 
+// A = sum (-x2)^k/(2k+1), B = sum (-x2)^k (1/(2k+1) + 1/(2k+3)); seven terms are exact to rounding
+// (x2^7/15 < 1e-16) below this, an angle of 0.35 rad in one element.
+constexpr double kArcTangentSeriesBelow = 0.0075;
+
+template <class T>
+ArcTangentSeries<T> SumArcTangentSeries(const T& x2) {
+  constexpr auto a = [](int k) { return 1.0 / (2 * k + 1); };
+  constexpr auto b = [](int k) { return 1.0 / (2 * k + 1) + 1.0 / (2 * k + 3); };
+  constexpr double kA[] = {a(0), a(1), a(2), a(3), a(4), a(5), a(6)};
+  constexpr double kB[] = {b(0), b(1), b(2), b(3), b(4), b(5), b(6)};
+  const auto horner = [&x2](const double* c) {
+    return c[0] - x2 * (c[1] - x2 * (c[2] - x2 * (c[3] - x2 * (c[4] - x2 * (c[5] - x2 * c[6])))));
+  };
+  return {horner(kA), horner(kB)};
+}
+
 inline ArcTangentSeries<double> EvaluateArcTangent(double x2) {
-  // A = sum (-x2)^k/(2k+1), B = sum (-x2)^k (1/(2k+1) + 1/(2k+3)); seven terms are exact to
-  // rounding (x2^7/15 < 1e-16) below x2 = 0.0075, an angle of 0.35 rad in one element.
-  constexpr double kSeriesBelow = 0.0075;
-  if (x2 < kSeriesBelow) {
-    const auto a = [](int k) { return 1.0 / (2 * k + 1); };
-    const double A =
-        a(0) - x2 * (a(1) - x2 * (a(2) - x2 * (a(3) - x2 * (a(4) - x2 * (a(5) - x2 * a(6))))));
-    const auto b = [a](int k) { return a(k) + a(k + 1); };
-    const double B =
-        b(0) - x2 * (b(1) - x2 * (b(2) - x2 * (b(3) - x2 * (b(4) - x2 * (b(5) - x2 * b(6))))));
-    return {A, B};
-  }
+  if (x2 < kArcTangentSeriesBelow) return SumArcTangentSeries(x2);
   const double x = std::sqrt(x2);
   const double A = std::atan(x) / x;
   return {A, (1.0 - A * (1.0 - x2)) / x2};
+}
+
+inline ArcTangentSeries<Lanes> EvaluateArcTangent(const Lanes& x2) {
+  ArcTangentSeries<Lanes> series = SumArcTangentSeries(x2);
+  for (int lane = 0; lane < Lanes::kCount; ++lane) {
+    if (x2[lane] < kArcTangentSeriesBelow) continue;
+    const ArcTangentSeries<double> one = EvaluateArcTangent(x2[lane]);
+    series.A.v[lane] = one.A;
+    series.B.v[lane] = one.B;
+  }
+  return series;
 }
 
 /// Quaternion of the rotation vector `phi` [rad].

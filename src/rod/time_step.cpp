@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cosserat_cable/rod/generalized_alpha.h"
 #include "rod_impl.h"
 
 namespace cosserat_cable::rod {
@@ -17,7 +16,6 @@ constexpr double kRefactorAbove = 0.2;
 // A correction this small is converged whatever the contraction.
 constexpr double kRoundOff = 1e-12;
 
-V3 Translation(const Vec6<Scalar>& d) { return {d[0], d[1], d[2]}; }
 V3 Rotation(const Vec6<Scalar>& d) { return {d[3], d[4], d[5]}; }
 
 /// The system is solved for the variation phi in the section's frame; the step's rotation vector
@@ -47,13 +45,9 @@ void Hold(const Motion& motion, const NodeState& before, NodeState* node, NodeRa
 }  // namespace
 
 SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* load) {
-  static constexpr GeneralizedAlpha kScheme{};
   Impl& m = *impl_;
   const int first = m.first_free(), last = m.last_free();
-  const double velocity_by_increment = kScheme.gamma / (kScheme.beta * dt);
-  const double acceleration_by_increment = 1.0 / (kScheme.beta * dt * dt);
-  const double rate_by_increment =
-      acceleration_by_increment * (1 - kScheme.alpha_m) / (1 - kScheme.alpha_f);
+  const StepCoefficients c(dt);
 
   m.PrepareStep(dt);
   if (m.model.held_a) Hold(a, m.node[0], &m.trial[0], &m.trial_rate[0]);
@@ -66,45 +60,14 @@ SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* l
     m.increment[i] = {{dr.x, dr.y, dr.z, dphi.x, dphi.y, dphi.z}};
   }
 
-  // Node state and rates that belong to the increment.
-  const auto update = [&] {
-    for (int i = first; i <= last; ++i) {
-      const NodeState& from = m.node[i];
-      const NodeRates &a0 = m.algorithm[i], &rate0 = m.rate[i];
-      const V3 dr = Translation(m.increment[i]), dphi = Rotation(m.increment[i]);
-      const double half_minus_beta = 0.5 - kScheme.beta;
-      NodeRates& a1 = m.trial_algorithm[i];
-      a1.v = acceleration_by_increment * (dr - dt * from.v - (dt * dt * half_minus_beta) * a0.v);
-      a1.omega = acceleration_by_increment *
-                 (dphi - dt * from.omega - (dt * dt * half_minus_beta) * a0.omega);
-      NodeState& to = m.trial[i];
-      to.r = from.r + dr;
-      to.q = Normalized(from.q * Exp(dphi));
-      to.v = from.v + (dt * (1 - kScheme.gamma)) * a0.v + (dt * kScheme.gamma) * a1.v;
-      to.omega =
-          from.omega + (dt * (1 - kScheme.gamma)) * a0.omega + (dt * kScheme.gamma) * a1.omega;
-      const double scale = 1 / (1 - kScheme.alpha_f);
-      m.trial_rate[i].v = scale * ((1 - kScheme.alpha_m) * a1.v + kScheme.alpha_m * a0.v -
-                                   kScheme.alpha_f * rate0.v);
-      m.trial_rate[i].omega = scale * ((1 - kScheme.alpha_m) * a1.omega +
-                                       kScheme.alpha_m * a0.omega - kScheme.alpha_f * rate0.omega);
-    }
-  };
+  const NodeStep step{m.node.data(),      m.algorithm.data(), m.rate.data(),
+                      m.increment.data(), m.trial.data(),     m.trial_algorithm.data(),
+                      m.trial_rate.data()};
   const auto balance = [&] {
+    UpdateNodes(c, step, first, last);
     m.EvaluateForces();
-    for (int i = 0; i < m.count; ++i) {
-      const V3 f = m.mass[i] * m.trial_rate[i].v;
-      const V3& omega = m.trial[i].omega;
-      const V3 g =
-          Scale(m.inertia[i], m.trial_rate[i].omega) + Cross(omega, Scale(m.inertia[i], omega));
-      Vec6<Scalar>& b = m.rhs[i];
-      b[0] -= f.x;
-      b[1] -= f.y;
-      b[2] -= f.z;
-      b[3] -= g.x;
-      b[4] -= g.y;
-      b[5] -= g.z;
-    }
+    SubtractInertia(m.mass.data(), m.inertia.data(), m.trial.data(), m.trial_rate.data(), m.count,
+                    m.rhs.data());
   };
 
   SolveReport report;
@@ -112,23 +75,22 @@ SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* l
   bool refactor = true;
   while (report.iterations < kMaxIterations) {
     ++report.iterations;
-    update();
     balance();
-    if (refactor) m.AssembleTangent(velocity_by_increment);
-    if (load) m.AddLoad(*load, refactor, velocity_by_increment);
+    if (refactor) m.AssembleTangent(c.velocity_by_increment);
+    if (load) m.AddLoad(*load, refactor, c.velocity_by_increment);
     if (refactor) {
       for (int i = first; i <= last; ++i) {
-        const V3 j = rate_by_increment * m.inertia[i];
-        const double mass = rate_by_increment * m.mass[i];
+        const V3 j = c.rate_by_increment * m.inertia[i];
+        const double mass = c.rate_by_increment * m.mass[i];
         Block6<Scalar>& d = m.system.diagonal(i);
         for (int k = 0; k < 3; ++k) d[k][k] += mass;
         d[3][3] += j.x;
         d[4][4] += j.y;
         d[5][5] += j.z;
       }
-      if (!(m.system.Factorise(first, last) > 0)) return report;
+      if (!(Factorise(&m.system, first, last) > 0)) return report;
     }
-    m.system.Solve(m.rhs.data());
+    Solve(m.system, m.rhs.data());
     report.correction = m.CorrectionNorm();
     if (!std::isfinite(report.correction)) return report;
     for (int i = first; i <= last; ++i) Correct(m.rhs[i], &m.increment[i]);
@@ -143,16 +105,14 @@ SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* l
   }
   if (!report.converged) return report;
 
-  update();
   balance();
-  if (load) m.AddLoad(*load, false, velocity_by_increment);
+  if (load) m.AddLoad(*load, false, c.velocity_by_increment);
   for (int e = 0; e < m.model.elements; ++e) {
-    const ElementState<Scalar>& state = m.element[e];
-    m.shear[e][0] =
-        m.shear1.Commit(m.shear[e][0], state.gamma.x - m.law.gamma0.x, state.gamma_dot.x);
-    m.shear[e][1] =
-        m.shear2.Commit(m.shear[e][1], state.gamma.y - m.law.gamma0.y, state.gamma_dot.y);
+    const V3 gamma = m.chain.gamma(e) - m.law.gamma0, gamma_dot = m.chain.gamma_dot(e);
+    m.shear[e][0] = m.shear1.Commit(m.shear[e][0], gamma.x, gamma_dot.x);
+    m.shear[e][1] = m.shear2.Commit(m.shear[e][1], gamma.y, gamma_dot.y);
   }
+  for (NodeState& n : m.trial) n.q = Normalized(n.q);  // rounding would add up over many steps
   std::swap(m.node, m.trial);
   std::swap(m.rate, m.trial_rate);
   std::swap(m.algorithm, m.trial_algorithm);

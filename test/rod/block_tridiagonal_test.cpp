@@ -40,8 +40,8 @@ Case MakeCase(double shift) {
 
 TEST(BlockTridiagonalTest, SolvesLikeADenseFactorisation) {
   constexpr double kTolerance = 1e-13;  // condition number of about 3
-  Case c = MakeCase(0);
   for (const auto& range : {std::pair<int, int>{0, kNodes - 1}, {1, kNodes - 2}}) {
+    Case c = MakeCase(0);
     const int first = range.first, count = range.second - first + 1;
     const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(6 * kNodes, -1, 2);
     std::vector<Vec6<double>> x(kNodes);
