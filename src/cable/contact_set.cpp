@@ -26,7 +26,7 @@ std::vector<ContactSite> PlaceContactSites(const CableModel& model) {
   std::vector<ContactSite> sites;
   for (int e = 0; e < model.elements; ++e)
     for (int k = 0; k < per_element; ++k) {
-      const double xi = (k + 0.5) / per_element;
+      const double xi = static_cast<double>(k) / per_element;
       const double s = (e + xi) * h;
       if (s >= model.diameter && s <= model.length - model.diameter) sites.push_back({e, xi, s});
     }

@@ -20,7 +20,7 @@ struct ContactSite {
   double s;   ///< arc length [m]
 };
 
-/// The sites of a cable: evenly spaced, no farther apart than the radius, and none within a
+/// The sites of a cable: nodes, and evenly spaced between them, no farther apart than the radius, and none within a
 /// diameter of a clamp, where the fitting is.
 std::vector<ContactSite> PlaceContactSites(const CableModel& model);
 

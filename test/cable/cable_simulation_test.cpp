@@ -1,0 +1,213 @@
+#include "cosserat_cable/cable/cable_simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace cosserat_cable {
+namespace {
+
+using Eigen::Vector3d;
+
+const Vector3d kGravity(0, 0, -9.81);
+
+/// A hose hanging in a U between two clamps that face down and up, 0.2 m apart.
+CableModel Hose() {
+  CableModel m;
+  m.name = "hose";
+  m.length = 0.4;
+  m.diameter = 0.01;
+  m.mass_per_length = 0.12;
+  m.EI1 = m.EI2 = 0.035;
+  m.GJ = 0.028;
+  m.EA = 16 * 0.035 / 1e-4;
+  m.GA1 = m.GA2 = m.EA / 3;
+  m.eta_EI1 = m.eta_EI2 = 1e-4;
+  m.eta_GJ = 5e-5;
+  m.eta_EA = 4 * 0.4 / M_PI * std::sqrt(0.12 * m.EA);
+  m.eta_GA1 = m.eta_GA2 = 2 * std::sqrt(m.rhoI() * m.GA1);
+  m.apex_s = 0.2;
+  return m;
+}
+
+Surroundings HoseClamps() {
+  Surroundings s;
+  s.a.X.q = Eigen::Quaterniond(0, 1, 0, 0);  // a3 down
+  s.b.X.p = {0, 0.2, 0};
+  return s;
+}
+
+Shape BoxAt(const Vector3d& size, const Vector3d& p) { return {{p, {1, 0, 0, 0}}, Box{size}}; }
+
+/// A rectangle in the x-y plane as an open mesh, one triangle pair.
+Shape SheetAt(double half, const Vector3d& p) {
+  TriangleMesh mesh;
+  mesh.vertices = {{-half, -half, 0}, {half, -half, 0}, {half, half, 0}, {-half, half, 0}};
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return {{p, {1, 0, 0, 0}}, mesh};
+}
+
+double LowestPoint(const CableSimulation& cable) {
+  double z = std::numeric_limits<double>::infinity();
+  for (const Pose& node : cable.nodes()) z = std::min(z, node.p.z());
+  return z;
+}
+
+TEST(CableSimulationTest, RestsSymmetricallyAndCarriesItsWeight) {
+  constexpr double kForce = 1e-6;  // N, of 0.47 N
+  CableSimulation cable(Hose(), {}, kGravity);
+  ASSERT_TRUE(cable.Settle(HoseClamps()).ok);
+  const CableReport report = cable.Report();
+  EXPECT_NEAR(report.force_a.z() + report.force_b.z(), 0.4 * 0.12 * 9.81, kForce);
+  EXPECT_NEAR(report.apex.y(), 0.1, 1e-6);
+  EXPECT_TRUE(std::isinf(report.clearance));
+}
+
+TEST(CableSimulationTest, StaysAtRestWhereNothingMoves) {
+  constexpr double kDrift = 1e-8;  // m
+  CableSimulation cable(Hose(), {}, kGravity);
+  const Surroundings still = HoseClamps();
+  ASSERT_TRUE(cable.Settle(still).ok);
+  const Vector3d apex = cable.Report().apex;
+  for (int k = 0; k < 300; ++k) ASSERT_TRUE(cable.Step(1e-3, still).ok);
+  EXPECT_LT((cable.Report().apex - apex).norm(), kDrift);
+}
+
+TEST(CableSimulationTest, SameInputGivesSameBits) {
+  const auto run = [] {
+    const Body floor({BoxAt({1, 1, 0.1}, {0, 0.1, -0.27})});
+    CableSimulation cable(Hose(), {&floor}, kGravity);
+    Surroundings s = HoseClamps();
+    s.obstacles.resize(1);
+    EXPECT_TRUE(cable.Settle(s).ok);
+    for (int k = 0; k < 200; ++k) {
+      s.b.X.p.z() = -0.02 * std::sin(0.05 * k);
+      EXPECT_TRUE(cable.Step(1e-3, s).ok);
+    }
+    return cable.Report().apex;
+  };
+  EXPECT_EQ(run(), run());
+}
+
+/// Drives a floor up against the hanging cable at 2 m/s, and back; the cable must stay above.
+void ExpectStoppedBy(const Shape& shape, double top, double travel) {
+  constexpr double kSpeed = 2.0, kDt = 1e-3;
+  // A point of the centreline may sink in, but not through: less than the radius.
+  constexpr double kRadius = 5e-3;
+  const Body body({shape});
+  CableSimulation cable(Hose(), {&body}, kGravity);
+  Surroundings s = HoseClamps();
+  s.obstacles.resize(1);
+  s.obstacles[0].X.p = {0, 0.1, -0.35};
+  ASSERT_TRUE(cable.Settle(s).ok);
+  const auto check = [&] {
+    ASSERT_TRUE(cable.Step(kDt, s).ok);
+    for (const Pose& node : cable.nodes())
+      ASSERT_GT(node.p.z() - (s.obstacles[0].X.p.z() + top), 0.0);
+    for (const ContactPoint& point : cable.contacts()) ASSERT_LT(point.penetration, kRadius);
+  };
+  s.obstacles[0].v.z() = kSpeed;
+  for (double z = 0; z < travel; z += kSpeed * kDt) {
+    s.obstacles[0].X.p.z() += kSpeed * kDt;
+    check();
+  }
+  EXPECT_GT(cable.Report().contact_force, 0);
+  s.obstacles[0].v.setZero();
+  for (int k = 0; k < 300; ++k) check();
+  // At rest on the floor the weight of the hose costs a fraction of a millimetre.
+  EXPECT_LT(-cable.Report().clearance, 0.05 * kRadius);
+}
+
+TEST(CableSimulationTest, ABoxAtTwoMetresPerSecondDoesNotPass) {
+  ExpectStoppedBy(BoxAt({0.6, 0.6, 0.1}, {0, 0, -0.05}), 0, 0.22);
+}
+TEST(CableSimulationTest, AThinPlateDoesNotPass) {
+  ExpectStoppedBy(BoxAt({0.6, 0.6, 0.002}, {0, 0, -0.001}), 0, 0.22);
+}
+TEST(CableSimulationTest, AnOpenSheetDoesNotPass) {
+  ExpectStoppedBy(SheetAt(0.3, {0, 0, 0}), 0, 0.22);
+}
+
+TEST(CableSimulationTest, TellsTheClearanceWithoutContact) {
+  constexpr double kTolerance = 1e-6;  // the lowest point is a node, and nodes are looked at
+  CableSimulation free(Hose(), {}, kGravity);
+  ASSERT_TRUE(free.Settle(HoseClamps()).ok);
+  const double floor_z = LowestPoint(free) - 0.005 - 0.02;  // 20 mm below the surface
+  const Body floor({BoxAt({1, 1, 0.1}, {0, 0, floor_z - 0.05})});
+  CableSimulation cable(Hose(), {&floor}, kGravity);
+  Surroundings s = HoseClamps();
+  s.obstacles.resize(1);
+  ASSERT_TRUE(cable.Settle(s).ok);
+  EXPECT_NEAR(cable.Report().clearance, 0.02, kTolerance);
+  // The same after it has moved, and beyond reach none.
+  for (int k = 0; k < 40; ++k) {
+    s.obstacles[0].X.p.z() -= 5e-4;
+    ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  }
+  EXPECT_NEAR(cable.Report().clearance, 0.04, kTolerance);
+  for (int k = 0; k < 40; ++k) {
+    s.obstacles[0].X.p.z() -= 5e-4;
+    ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  }
+  EXPECT_TRUE(std::isinf(cable.Report().clearance));
+}
+
+TEST(CableSimulationTest, SettlesOnABodyThatItTouchesAtRest) {
+  CableSimulation free(Hose(), {}, kGravity);
+  ASSERT_TRUE(free.Settle(HoseClamps()).ok);
+  const double floor_z = LowestPoint(free) + 0.01;
+  const Body floor({BoxAt({1, 1, 0.1}, {0, 0, floor_z - 0.05})});
+  CableSimulation cable(Hose(), {&floor}, kGravity);
+  Surroundings s = HoseClamps();
+  s.obstacles.resize(1);
+  const StepOutcome outcome = cable.Settle(s);
+  ASSERT_TRUE(outcome.ok) << outcome.message;
+  const CableReport report = cable.Report();
+  EXPECT_NEAR(report.force_a.z() + report.force_b.z() + report.contact_force, 0.4 * 0.12 * 9.81,
+              1e-6);
+  EXPECT_LT(std::abs(report.clearance), 1e-3);
+}
+
+TEST(CableSimulationTest, AMotionThatIsNotFiniteIsRefused) {
+  CableSimulation cable(Hose(), {}, kGravity);
+  Surroundings s = HoseClamps();
+  ASSERT_TRUE(cable.Settle(s).ok);
+  const Vector3d apex = cable.Report().apex;
+  s.b.X.p.x() = std::numeric_limits<double>::quiet_NaN();
+  const StepOutcome outcome = cable.Step(1e-3, s);
+  EXPECT_FALSE(outcome.ok);
+  EXPECT_NE(outcome.message.find("not finite"), std::string::npos);
+  EXPECT_EQ(cable.Report().apex, apex);
+}
+
+TEST(CableSimulationTest, AJoltTakesSmallerStepsOrFailsCleanly) {
+  CableSimulation cable(Hose(), {}, kGravity);
+  Surroundings s = HoseClamps();
+  ASSERT_TRUE(cable.Settle(s).ok);
+  s.b.X.p = {30, -40, 50};  // torn off
+  const StepOutcome outcome = cable.Step(1e-3, s);
+  EXPECT_EQ(outcome.ok, outcome.message.empty());
+  for (const Pose& node : cable.nodes()) EXPECT_TRUE(node.p.allFinite());
+}
+
+TEST(CableSimulationTest, FarFromTheOriginNothingChanges) {
+  constexpr double kTolerance = 1e-7;  // m; positions of 1 km have 1e-13
+  const auto apex = [](const Vector3d& origin) {
+    CableSimulation cable(Hose(), {}, kGravity);
+    Surroundings s = HoseClamps();
+    s.a.X.p += origin;
+    s.b.X.p += origin;
+    EXPECT_TRUE(cable.Settle(s).ok);
+    for (int k = 1; k <= 100; ++k) {
+      s.b.X.p.z() = origin.z() + 0.01 * std::sin(0.1 * k);
+      s.b.v.z() = 1.0 * std::cos(0.1 * k);
+      EXPECT_TRUE(cable.Step(1e-3, s).ok);
+    }
+    return Vector3d(cable.Report().apex - origin);
+  };
+  EXPECT_LT((apex({0, 0, 0}) - apex({800, -600, 30})).norm(), kTolerance);
+}
+
+}  // namespace
+}  // namespace cosserat_cable
