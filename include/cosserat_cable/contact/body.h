@@ -11,28 +11,43 @@ namespace cosserat_cable {
 
 /// Where a body is nearest to a point, all in the body's frame B.
 struct Clearance {
-  double distance = std::numeric_limits<double>::infinity();  ///< [m]; negative inside a closed shape
-  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();          ///< on the surface [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();          ///< unit, out of the body at `nearest`
-  int shape = -1;          ///< index of the shape
-  bool two_sided = false;  ///< an open mesh: `distance` >= 0 and the normal points to the query's side
+  double distance =
+      std::numeric_limits<double>::infinity();        ///< [m]; negative inside a closed shape
+  Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< on the surface [m]
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, out of the body at `nearest`
+  int shape = -1;  ///< index of the shape; -1: none within reach, and all else here says nothing
+  bool two_sided = false;  ///< an open mesh: `distance` >= 0, the normal points to the query's side
+  bool rim = false;        ///< `nearest` is on the border of an open mesh, where its sides meet
 };
 
 /// The shapes of one link. Immutable and safe to query from several threads at once.
+///
+/// A mesh counts as closed where its triangles, connected over edges, share each edge by just two
+/// in opposite directions; a mesh's closed parts are bodies of their own (facing outward, whichever
+/// way the file has them: a cavity counts as solid), everything else is a two-sided shell.
 class Body {
  public:
   /// @pre shapes are valid (LoadMesh reported no problem; sizes positive)
+  /// @throws std::invalid_argument where they are not
   explicit Body(const std::vector<Shape>& shapes);
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
 
-  /// Signed distance from a point `p_B` [m]. Shapes farther than `reach` [m] are pruned; where all are, the
-  /// result has infinite distance (and any true distance is >= reach).
+  /// The smallest signed distance over all shapes from a point `p_B` [m]. Shapes farther than
+  /// `reach` [m]
+  /// (> 0, may be infinite) are pruned; where all are, the result has infinite distance (and any
+  /// true distance is >= reach). So it has where `p_B` is not finite. Inside a closed shape the
+  /// answer is exact, however deep. Allocates nothing.
   Clearance Query(const Eigen::Vector3d& p_B, double reach) const;
 
-  /// Axis-aligned box that holds all shapes, in B.
+  /// A bound from the shapes' axis-aligned boxes alone [m]: the signed distance is no less. -inf
+  /// within a box.
+  double LowerBound(const Eigen::Vector3d& p_B) const;
+
+  /// Axis-aligned box that holds all shapes, in B. Empty where there are none.
   const Eigen::AlignedBox3d& bounds() const;
+  /// Triangles in use, after cleaning.
   int triangle_count() const;
 
  private:
