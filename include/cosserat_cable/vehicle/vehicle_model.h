@@ -1,7 +1,7 @@
-// A vehicle as its URDF says it: links with collision geometry, joints, and the pose across a joint.
+// A vehicle as its URDF says it: links with collision geometry, joints, and the pose across a
+// joint.
 #pragma once
 
-#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -9,6 +9,7 @@
 #include "cosserat_cable/contact/shape.h"
 #include "cosserat_cable/input/problems.h"
 #include "cosserat_cable/math/pose.h"
+#include "cosserat_cable/vehicle/package_finder.h"
 
 namespace cosserat_cable {
 
@@ -16,35 +17,37 @@ struct JointModel {
   enum class Type { kFixed, kRevolute, kPrismatic, kFloating };  ///< continuous counts as revolute
   std::string name, parent, child;
   Type type = Type::kFixed;
-  Pose X_PJ;                                          ///< of the child at position zero, in the parent
-  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();    ///< unit, in the joint's frame
-  std::string mimic;                                  ///< joint that it follows, or empty
+  Pose X_PJ;  ///< of the child at position zero, in the parent
+  Eigen::Vector3d axis = Eigen::Vector3d::UnitX();  ///< unit, in the joint's frame
+
+  /// The joint whose position this one's follows, as multiplier * position + offset; or empty. That
+  /// joint follows none itself: LoadVehicle resolves chains.
+  std::string mimic;
   double mimic_multiplier = 1, mimic_offset = 0;
 
-  /// Pose of the child in the parent at a position [rad] or [m].
+  /// Pose of the child in the parent at a position [rad] or [m]. Fixed and floating joints have
+  /// none: X_PJ whatever it is.
   Pose Evaluate(double position) const;
 };
 
-/// Turns "package://NAME" into a folder; returns "" for an unknown package.
-using PackageFinder = std::function<std::string(const std::string& package)>;
-
-/// Looks for a folder with the package's package.xml upwards from `start`, then in $ROS_PACKAGE_PATH.
-PackageFinder FindPackagesFrom(const std::string& start);
-
 struct VehicleModel {
   std::string name;
-  std::string root;                               ///< the root link
-  std::vector<std::string> links;                 ///< in the file's order
-  std::vector<JointModel> joints;
-  std::map<std::string, std::vector<Shape>> collision;  ///< by link; only links named in `wanted`
+  std::string root;                ///< the root link
+  std::vector<std::string> links;  ///< in the file's order
+  std::vector<JointModel> joints;  ///< in the file's order
+  /// By link; only those of `collision_links` that have collision geometry.
+  std::map<std::string, std::vector<Shape>> collision;
 
-  const JointModel* FindJoint(const std::string& name) const;
+  const JointModel* FindJoint(const std::string& name) const;  ///< null where there is none
   bool HasLink(const std::string& name) const;
 };
 
-/// Reads a URDF file. Collision meshes are loaded for the links in `collision_links` only (unknown names are ignored here:
-/// the caller knows where they were written). Every mistake goes to `problems` with file and line: malformed XML,
-/// more than one root, a mesh that is missing or has NaN vertices, a package that cannot be found.
+/// Reads a URDF file. Collision meshes are loaded for the links in `collision_links` only (unknown
+/// names are ignored here: the caller knows where they were written). Every mistake goes to
+/// `problems` with file and line: malformed XML, an unknown joint type (planar ones included), a
+/// number that is none, a size that is not positive, a zero axis, links that do not form one tree,
+/// a mesh that is missing or has NaN vertices, a package that cannot be found. After a mistake
+/// other than in a mesh the vehicle holds the names of its links alone.
 VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>& collision_links,
                          const PackageFinder& find_package, Problems* problems);
 
