@@ -1,0 +1,112 @@
+# The ROS room: messages, the cosserat_cable_ros library, one executable per src/apps/*.cpp.
+
+find_package(catkin REQUIRED COMPONENTS
+  diagnostic_msgs
+  geometry_msgs
+  message_generation
+  rosbag_storage
+  roscpp
+  roslib
+  rosgraph_msgs
+  sensor_msgs
+  std_msgs
+  tf2
+  tf2_msgs
+  visualization_msgs
+)
+find_package(CLI11 REQUIRED)
+
+add_message_files(DIRECTORY msg FILES ApexTelemetry.msg)
+generate_messages(DEPENDENCIES std_msgs)
+
+set(rooms
+  cosserat_cable_ros
+  cosserat_cable_vehicle
+  cosserat_cable_cable
+  cosserat_cable_contact
+  cosserat_cable_rod
+  cosserat_cable_input
+  cosserat_cable_math
+)
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES ${rooms}
+  CATKIN_DEPENDS diagnostic_msgs geometry_msgs message_runtime rosbag_storage roscpp roslib
+    sensor_msgs std_msgs tf2 tf2_msgs visualization_msgs
+  DEPENDS EIGEN3
+)
+
+file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+add_library(cosserat_cable_ros STATIC ${ros_sources})
+add_dependencies(cosserat_cable_ros ${PROJECT_NAME}_generate_messages_cpp)
+target_include_directories(cosserat_cable_ros PUBLIC include)
+# Not ours: a warning in a message header is no reason to stop.
+target_include_directories(cosserat_cable_ros SYSTEM PUBLIC
+  ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
+target_link_libraries(cosserat_cable_ros PUBLIC cosserat_cable_cable cosserat_cable_vehicle
+  ${catkin_LIBRARIES} Threads::Threads)
+
+foreach(room ${rooms})
+  get_target_property(type ${room} TYPE)
+  if(NOT type STREQUAL INTERFACE_LIBRARY)
+    set_target_properties(${room} PROPERTIES
+      ARCHIVE_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_LIB_DESTINATION})
+    install(TARGETS ${room} ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  endif()
+endforeach()
+
+# apex_check is a gtest program so that a .test file of any package can run it; it is built and
+# installed where gtest is there.
+find_package(GTest QUIET)
+file(GLOB apps CONFIGURE_DEPENDS src/apps/*.cpp)
+foreach(app ${apps})
+  get_filename_component(name ${app} NAME_WE)
+  if(name STREQUAL apex_check AND NOT GTest_FOUND)
+    continue()
+  endif()
+  add_executable(${name} ${app})
+  set_target_properties(${name} PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+  target_link_libraries(${name} cosserat_cable_ros CLI11::CLI11)
+  if(name STREQUAL apex_check)
+    target_link_libraries(${name} GTest::gtest)
+  endif()
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endforeach()
+
+install(DIRECTORY include/${PROJECT_NAME}/ DESTINATION ${CATKIN_PACKAGE_INCLUDE_DESTINATION})
+foreach(folder launch config urdf)
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${folder})
+    install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+  endif()
+endforeach()
+
+if(CATKIN_ENABLE_TESTING)
+  find_package(GTest REQUIRED)
+  find_package(rostest REQUIRED)
+  set(tools ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+
+  file(GLOB sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
+  if(sources)
+    add_executable(ros_test EXCLUDE_FROM_ALL ${sources})
+    target_include_directories(ros_test PRIVATE test)
+    target_compile_definitions(ros_test PRIVATE
+      COSSERAT_CABLE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
+    target_link_libraries(ros_test cosserat_cable_ros GTest::gtest_main)
+    add_test(NAME ros_test COMMAND ros_test)
+    add_dependencies(tests ros_test)
+  endif()
+
+  foreach(name cli rviz)
+    add_test(NAME ${name}_test
+      COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE}
+        ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/${name}_test.py)
+    set_tests_properties(${name}_test PROPERTIES ENVIRONMENT
+      "COSSERAT_CABLE_SOURCE_DIR=${CMAKE_CURRENT_SOURCE_DIR};COSSERAT_CABLE_TOOLS_DIR=${tools}")
+  endforeach()
+
+  file(GLOB rostests CONFIGURE_DEPENDS test/ros/*.test)
+  foreach(file ${rostests})
+    add_rostest(${file} DEPENDENCIES cable_node cable_replay apex_check)
+  endforeach()
+endif()

@@ -1,0 +1,31 @@
+// How far a cable's apex has swung lately.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <deque>
+
+namespace cosserat_cable {
+
+/// The apex's positions over a sliding window. One is added at every simulation step, not only
+/// where telemetry is sent: at 200 Hz the peaks of a 40 Hz motion would be missed by a tenth.
+class ApexHistory {
+ public:
+  explicit ApexHistory(std::int64_t window) : window_(window) {}  ///< [ns]
+
+  void Add(std::int64_t time, const Eigen::Vector3d& position);
+  void Clear() { samples_.clear(); }
+
+  /// Extent of the positions along their direction of largest variance [m]; 0 for fewer than two.
+  double PeakToPeak() const;
+
+ private:
+  struct Sample {
+    std::int64_t time;
+    Eigen::Vector3d position;
+  };
+  std::int64_t window_;
+  std::deque<Sample> samples_;
+};
+
+}  // namespace cosserat_cable

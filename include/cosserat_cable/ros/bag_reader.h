@@ -1,0 +1,55 @@
+// The motion in one or more bags: /tf, /tf_static and /joint_states in the order of time.
+#pragma once
+
+#include <rosbag/bag.h>
+#include <sensor_msgs/JointState.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/input/problems.h"
+
+namespace cosserat_cable {
+
+/// One message; exactly one of `tf` and `joints` is there.
+struct BagMessage {
+  std::int64_t time = 0;  ///< of recording [ns]
+  std::string topic;
+  boost::shared_ptr<ros::M_string> connection;  ///< as recorded, to be copied
+  boost::shared_ptr<tf2_msgs::TFMessage> tf;
+  bool is_static = false;
+  boost::shared_ptr<sensor_msgs::JointState> joints;
+};
+
+class BagReader {
+ public:
+  /// Opens the bags. Each that is missing, unindexed, truncated, or no bag, is a problem.
+  BagReader(const std::vector<std::string>& paths, Problems* problems);
+  ~BagReader();
+
+  /// Of the motion's messages over all bags [ns]; both 0 where there are none.
+  std::int64_t begin_time() const { return begin_; }
+  std::int64_t end_time() const { return end_; }
+  /// Motion messages by topic.
+  const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
+  std::uint64_t count() const;
+
+  /// Calls `visit` with each message recorded from `from` to `to` [ns]; earlier messages of
+  /// /tf_static come first. Stops where it returns false. Throws rosbag::BagException or
+  /// ros::Exception where a bag turns out to be damaged.
+  void ForEach(std::int64_t from, std::int64_t to,
+               const std::function<bool(const BagMessage&)>& visit) const;
+
+ private:
+  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  std::map<std::string, std::uint64_t> counts_;
+  std::int64_t begin_ = 0, end_ = 0;
+};
+
+}  // namespace cosserat_cable

@@ -1,0 +1,109 @@
+// All cables of a vehicle, driven by its recorded or live transforms. The live node and the replay
+// hand their messages to the same handlers here, so that the same input gives the same bits in
+// both.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/cable/cable_simulation.h"
+#include "cosserat_cable/ros/link_motion.h"
+#include "cosserat_cable/ros/markers.h"
+#include "cosserat_cable/ros/output_sink.h"
+#include "cosserat_cable/ros/summary.h"
+
+namespace cosserat_cable {
+
+enum class AmplitudeFrame { kReference, kWorld };
+
+struct EngineOptions {
+  double dt = 1e-3;               ///< step [s]
+  double telemetry_rate = 200;    ///< [Hz], like all rates in simulated time
+  double marker_rate = 30;        ///< [Hz]; 0: none
+  double diagnostics_rate = 1;    ///< [Hz]
+  double amplitude_window = 0.5;  ///< [s]
+  AmplitudeFrame amplitude_frame = AmplitudeFrame::kReference;
+  Eigen::Vector3d gravity_W{0, 0, -9.81};  ///< [m/s^2]
+  double clearance_reach = 0.05;           ///< bodies farther away count as none [m]
+  MarkerStyle markers;
+  std::string dump_directory = ".";  ///< where a failed cable's state is written
+  LinkMotionOptions links;
+
+  /// What is wrong with the numbers, one sentence each.
+  std::vector<std::string> Check() const;
+};
+
+/// Collision geometry by link.
+using BodyMap = std::map<std::string, std::unique_ptr<Body>>;
+
+/// The bodies of all links with collision shapes.
+BodyMap MakeBodies(const VehicleModel& vehicle);
+
+/// Links whose motion the cables need: clamps, references, and those to avoid; each once.
+std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables);
+
+class CableEngine {
+ public:
+  /// `vehicle` and `bodies` outlive this. A link that a cable avoids and that has no body never
+  /// touches it.
+  CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
+              const std::vector<CableModel>& cables, EngineOptions options);
+  ~CableEngine();
+
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static);
+  void Ingest(const sensor_msgs::JointState& message);
+  /// No more samples will come: Advance then goes up to the last.
+  void Finish();
+
+  /// Steps the cables as far as the motion of all links is final. Steps are on multiples of dt.
+  /// The first call that finds all links known settles the cables there.
+  void Advance(OutputSink* sink);
+
+  bool started() const { return started_; }
+  std::int64_t now() const { return now_; }  ///< simulated time [ns]; 0 before the start
+  const LinkMotion& links() const { return links_; }
+  /// True where a cable has failed at any time.
+  bool AnyFailed() const;
+  /// Sentences to be said to the user, each once.
+  std::vector<std::string> TakeNews();
+  /// Wall time and memory are the caller's to fill in.
+  Summary MakeSummary() const;
+
+ private:
+  struct Frame;
+  struct Cable;
+
+  bool Start(OutputSink* sink);
+  void EvaluateFrames(std::int64_t time);
+  Surroundings SurroundingsOf(const Cable& cable) const;
+  void Settle(Cable* cable);
+  void StepAll();
+  void Fail(Cable* cable, const std::string& message);
+  void Record(Cable* cable);
+  void Emit(OutputSink* sink);
+  void EmitTelemetry(Cable* cable, OutputSink* sink);
+  void EmitMarkers(Cable* cable, OutputSink* sink);
+  void EmitDiagnostics(OutputSink* sink);
+  bool Due(std::int64_t period) const;
+  std::size_t FrameIndex(const std::string& link);
+
+  EngineOptions options_;
+  std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
+  std::string vehicle_root_;
+  LinkMotion links_;
+  std::vector<Frame> frames_;
+  std::vector<Cable> cables_;
+
+  bool started_ = false;
+  bool finished_ = false;
+  std::int64_t now_ = 0;
+  std::uint64_t steps_ = 0;
+  std::uint64_t seen_clears_ = 0;
+  std::uint64_t resets_ = 0;
+  std::vector<std::string> news_;
+};
+
+}  // namespace cosserat_cable

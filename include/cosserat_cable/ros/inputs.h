@@ -1,0 +1,52 @@
+// Everything that a run reads, and all that is wrong with it, said before anything is simulated.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/ros/bag_reader.h"
+#include "cosserat_cable/ros/cable_engine.h"
+#include "cosserat_cable/vehicle/vehicle_model.h"
+
+namespace cosserat_cable {
+
+struct InputPaths {
+  std::string vehicle;            ///< URDF
+  std::string cables;             ///< YAML
+  std::vector<std::string> bags;  ///< may be empty
+  double start = 0;               ///< after the first bag's begin [s]
+  double duration = 0;            ///< [s]; 0: to the end
+};
+
+/// What the bags will do to the cables.
+struct BagSurvey {
+  std::int64_t from = 0, to = 0;   ///< the part to be replayed, by time of recording [ns]
+  std::string world;               ///< the inertial frame
+  bool world_is_recorded = false;  ///< otherwise the URDF's root, for want of a frame above it
+  std::map<std::string, LinkMotion::Edge> edges;
+  std::map<std::string, std::uint64_t> warnings;
+  std::uint64_t gaps = 0;
+  std::int64_t first_step = 0;  ///< when all links are known [ns]
+  std::vector<double> chords;   ///< between each cable's clamps at that time [m]
+};
+
+struct Inputs {
+  VehicleModel vehicle;
+  CableFile cables;
+  BodyMap bodies;  ///< of the links that cables avoid
+  std::unique_ptr<BagReader> bags;
+  std::optional<BagSurvey> survey;  ///< where the bags could be followed
+  int triangles = 0;                ///< of all collision meshes that cables avoid
+};
+
+/// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.
+Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems);
+
+/// For `cable_check`: cables, bags, and which frame is driven by what.
+std::string Describe(const Inputs& inputs);
+std::string DescribeJson(const Inputs& inputs, const Problems& problems);
+
+}  // namespace cosserat_cable

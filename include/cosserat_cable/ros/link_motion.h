@@ -1,0 +1,125 @@
+// Follows the links that cables need: every transform and joint state goes through here, live and
+// in replay.
+//
+// tf2's buffer holds the tree of frames, so that a link is what tf2 says it is; the MotionTree
+// beside it keeps each edge's samples at their own stamps and makes the C2 motion of them, which
+// tf2's straight lines between samples cannot give.
+#pragma once
+
+#include <sensor_msgs/JointState.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/ros/warnings.h"
+#include "cosserat_cable/vehicle/motion_tree.h"
+#include "cosserat_cable/vehicle/vehicle_model.h"
+
+namespace cosserat_cable {
+
+struct LinkMotionOptions {
+  std::string world_frame;               ///< inertial; empty: the root of the tree above the links
+  std::vector<std::string> held_joints;  ///< stay at position zero: nothing drives them
+  double max_gap = 0.25;                 ///< [s], see PoseCurve
+};
+
+class LinkMotion {
+ public:
+  enum class Source { kUrdf, kTfStatic, kTf, kJointStates };
+
+  /// One edge of the tree, named by its child.
+  struct Edge {
+    std::string parent;
+    Source source = Source::kUrdf;
+    std::uint64_t samples = 0;
+    std::int64_t first = 0, last = 0;   ///< stamps [ns]
+    std::int64_t longest_interval = 0;  ///< between two samples [ns]
+    std::uint64_t gaps = 0;             ///< intervals longer than max_gap
+  };
+
+  /// `links`: those whose motion will be asked for. `vehicle` outlives this.
+  LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
+             LinkMotionOptions options);
+
+  /// A sample that is older than its edge's last by more than half a second says that time ran
+  /// backwards: all samples are forgotten, `clear_count` grows, and the sample is the first of the
+  /// new run. Samples that cannot be used are counted in `warnings`.
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static);
+  void Ingest(const sensor_msgs::JointState& message);
+  /// No more samples will come.
+  void Finish();
+  /// Forgets all samples; the tree's edges stay.
+  void Clear();
+
+  /// The inertial frame: the option, or the common root of all links so far. Empty where they have
+  /// none in common.
+  const std::string& world() const { return world_; }
+  /// Why links cannot be followed from world() yet, one sentence each. Empty: all edges are driven.
+  std::vector<std::string> Missing() const;
+
+  /// The first time at which all links are known, and the time up to which their motion is final
+  /// [ns]. False where some edge has no sample yet. Where nothing moves at all: the range is that
+  /// of the samples seen.
+  bool Range(std::int64_t* begin, std::int64_t* ready) const;
+
+  Motion Evaluate(const std::string& link, std::int64_t time) const;
+  bool InGap(const std::string& link, std::int64_t time) const;
+  /// Intervals longer than max_gap, over the edges that links depend on; also of runs before Clear.
+  std::uint64_t gap_count() const;
+  void DropBefore(std::int64_t time);
+
+  const std::map<std::string, Edge>& edges() const { return edges_; }
+  const tf2::BufferCore& buffer() const { return buffer_; }
+  std::uint64_t clear_count() const { return clear_count_; }
+  std::int64_t last_stamp() const { return last_stamp_; }  ///< the latest of all samples [ns]
+  Warnings& warnings() { return warnings_; }
+  const Warnings& warnings() const { return warnings_; }
+
+ private:
+  struct Step {
+    std::string child, parent;
+    const JointModel* joint;  // null where the recording alone knows this edge
+  };
+
+  void AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
+                Source source);
+  void AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
+                 const Pose& X_PC, Source source);
+  bool AcceptSource(const std::string& parent, const std::string& child, Source source);
+  void IngestJoint(const JointModel& joint, double position, std::int64_t stamp);
+  void StoreInBuffer(const std::string& parent, const std::string& child, std::int64_t stamp,
+                     const Pose& X_PC, bool is_static);
+  const JointModel* JointAbove(const std::string& link) const;
+  // The way up from a frame: along edges seen, and along the URDF's joints where none was.
+  std::vector<Step> Ascend(const std::string& frame) const;
+  void UpdateTree();
+  double Seconds(std::int64_t time) const { return static_cast<double>(time - epoch_) * 1e-9; }
+
+  const VehicleModel& vehicle_;
+  std::vector<std::string> links_;
+  LinkMotionOptions options_;
+  std::map<std::string, const JointModel*> joint_above_;  // by child
+  std::multimap<std::string, const JointModel*> mimics_;  // by the joint they follow
+  std::map<std::string, const JointModel*> joints_;       // by name
+
+  tf2::BufferCore buffer_;
+  MotionTree tree_;
+  std::map<std::string, Edge> edges_;
+  std::string world_;
+  std::set<std::string> relevant_;  // children on the way from the links to the root
+  std::int64_t epoch_ = 0;          // so that the tree's seconds are small numbers
+  bool has_epoch_ = false;
+  std::int64_t last_stamp_ = 0;
+  std::uint64_t clear_count_ = 0;
+  Warnings warnings_;
+};
+
+/// "/tf", "/joint_states", ...
+const char* ToString(LinkMotion::Source source);
+
+}  // namespace cosserat_cable

@@ -1,0 +1,35 @@
+// A cable as rviz shows it: a tube coloured by curvature, its clamps, where it touches, its name.
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "cosserat_cable/cable/cable_simulation.h"
+
+namespace cosserat_cable {
+
+struct MarkerStyle {
+  int rings = 24;              ///< cross-sections along the tube, spread evenly over its length
+  int sides = 8;               ///< of each cross-section
+  double curvature_scale = 0;  ///< where the colours end [1/m]; 0: 1 / (5 diameters)
+  double force_scale = 0.002;  ///< length of a contact force's arrow [m/N]
+};
+
+/// The markers of a cable's present state, in the axes of its reference link.
+/// @param X_WR pose of the reference link in the world
+visualization_msgs::MarkerArray MakeMarkers(const CableSimulation& cable, const Pose& X_WR,
+                                            std::int64_t time, const MarkerStyle& style);
+
+/// Takes a cable's markers out of the picture.
+visualization_msgs::MarkerArray DeleteMarkers(const CableModel& model, std::int64_t time);
+
+/// The colour at x in [0, 1]: the viridis map, perceptually even.
+Eigen::Vector3d ViridisColor(double x);
+
+/// Position and section rotation at arc length s [m], by cubic Hermite curves between nodes that
+/// are spaced evenly over `length`, with the sections' normals as tangents.
+Pose InterpolateNodes(const std::vector<Pose>& nodes, double length, double s);
+
+}  // namespace cosserat_cable

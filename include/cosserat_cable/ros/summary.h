@@ -1,0 +1,47 @@
+// What a run came to: printed at its end by every tool, and written by --json.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace cosserat_cable {
+
+struct CableSummary {
+  std::string name;
+  std::uint64_t steps = 0;
+  std::uint64_t retried_steps = 0;  ///< had to be done in smaller ones
+  std::uint64_t iterations = 0;     ///< Newton iterations in all
+  double curvature_max = 0;         ///< [1/m]
+  double clearance_min = std::numeric_limits<double>::infinity();  ///< [m]
+  double contact_force_max = 0;                                    ///< [N]
+  double tension_max = 0;                                          ///< [N]
+  double amplitude_max = 0;  ///< peak to peak over the window [m]
+  std::string failure;       ///< empty while all is well
+};
+
+struct Summary {
+  std::string world_frame;
+  double simulated_time = 0;  ///< [s]
+  double wall_time = 0;       ///< [s]
+  double peak_memory = 0;     ///< resident [bytes]
+  std::uint64_t resets = 0;   ///< time ran backwards
+  std::uint64_t gaps = 0;     ///< of the input
+  std::map<std::string, std::uint64_t> warnings;
+  std::vector<CableSummary> cables;
+
+  double real_time_factor() const { return wall_time > 0 ? simulated_time / wall_time : 0; }
+  std::string ToText() const;
+  /// Infinite values become null.
+  std::string ToJson() const;
+};
+
+/// The process's largest resident memory so far [bytes].
+double PeakMemory();
+
+/// Writes `text` to `path`; false where that did not succeed in whole.
+bool WriteTextFile(const std::string& path, const std::string& text);
+
+}  // namespace cosserat_cable

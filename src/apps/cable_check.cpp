@@ -1,0 +1,31 @@
+// Says all that is wrong with a vehicle, its cables and a recording; simulates nothing.
+#include <iostream>
+
+#include "cosserat_cable/ros/exit_code.h"
+#include "cosserat_cable/ros/summary.h"
+#include "engine_arguments.h"
+
+int main(int argc, char** argv) {
+  cosserat_cable::InputPaths paths;
+  cosserat_cable::EngineOptions engine;
+  std::string json;
+  CLI::App app("Checks a vehicle, its cables and a recording, and simulates nothing.");
+  cosserat_cable::AddInputArguments(&app, &paths, &engine);
+  app.add_option("--json", json, "file for what is printed");
+  int code = 0;
+  if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
+
+  cosserat_cable::Problems problems;
+  const cosserat_cable::Inputs inputs = cosserat_cable::LoadInputs(paths, engine, &problems);
+  if (!json.empty() &&
+      !cosserat_cable::WriteTextFile(json, cosserat_cable::DescribeJson(inputs, problems))) {
+    std::cerr << json << ": could not be written\n";
+    return cosserat_cable::kExitFileTrouble;
+  }
+  if (!problems.empty()) {
+    std::cerr << problems.ToString();
+    return cosserat_cable::kExitBadInput;
+  }
+  std::cout << cosserat_cable::Describe(inputs) << "ok\n";
+  return cosserat_cable::kExitDone;
+}

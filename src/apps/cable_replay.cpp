@@ -1,0 +1,28 @@
+// Replays a recording through the cables, without a master, into a bag.
+#include "cosserat_cable/ros/replay.h"
+#include "engine_arguments.h"
+
+int main(int argc, char** argv) {
+  cosserat_cable::ReplayOptions options;
+  cosserat_cable::EngineOptions& engine = options.engine;
+  CLI::App app("Replays recorded link motion through a vehicle's cables, into a bag.");
+  cosserat_cable::AddInputArguments(&app, &options.inputs, &engine);
+  app.add_option("--output", options.output, "bag to be written")->required();
+  app.add_option("--json", options.json, "file for the summary's numbers");
+  app.add_option("--dt", engine.dt, "time step [s]")->capture_default_str();
+  app.add_option("--telemetry-rate", engine.telemetry_rate, "[Hz]")->capture_default_str();
+  app.add_option("--marker-rate", engine.marker_rate, "[Hz]; 0: none")->capture_default_str();
+  app.add_option("--amplitude-window", engine.amplitude_window, "[s]")->capture_default_str();
+  app.add_option("--amplitude-frame", engine.amplitude_frame, "axes of the amplitude")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, cosserat_cable::AmplitudeFrame>{
+              {"reference", cosserat_cable::AmplitudeFrame::kReference},
+              {"world", cosserat_cable::AmplitudeFrame::kWorld}},
+          CLI::ignore_case));
+  app.add_option("--curvature-scale", engine.markers.curvature_scale,
+                 "curvature at the colours' end [1/m]; 0: 1 / (5 diameters)")
+      ->capture_default_str();
+  int code = 0;
+  if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
+  return cosserat_cable::RunReplay(std::move(options));
+}

@@ -1,0 +1,151 @@
+#include "cosserat_cable/ros/cable_node.h"
+
+#include <ros/callback_queue.h>
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/param.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+
+#include "diagnostics.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Bursts of `rosbag play -r 5` and the time that a slow step takes fit in [messages].
+constexpr std::uint32_t kInputQueue = 20'000;
+constexpr double kSpinSeconds = 0.02;
+// Without news from the simulation, the reason is published this often [s].
+constexpr double kWaitingPeriod = 1;
+
+using Clock = std::chrono::steady_clock;
+
+// Adds what only the live node knows to the engine's diagnostics.
+class NodeSink : public TopicSink {
+ public:
+  using TopicSink::TopicSink;
+
+  void Diagnostics(const diagnostic_msgs::DiagnosticArray& message) override {
+    const double latency = (ros::Time::now() - message.header.stamp).toSec();
+    diagnostic_msgs::DiagnosticArray extended = message;
+    diagnostic_msgs::DiagnosticStatus status;
+    status.name = "cosserat_cable: node";
+    status.hardware_id = "none";
+    status.message = "running";
+    AddValue("latency [s]", latency, &status);
+    AddValue("peak memory [bytes]", PeakMemory(), &status);
+    extended.status.push_back(status);
+    TopicSink::Diagnostics(extended);
+    last_ = Clock::now();
+    ROS_INFO_ONCE("cables are %.2f s behind the clock: the motion curve waits for later samples",
+                  latency);
+  }
+
+  double SecondsSinceLast() const {
+    return std::chrono::duration<double>(Clock::now() - last_).count();
+  }
+  void ReportWaiting(const std::vector<std::string>& reasons) {
+    diagnostic_msgs::DiagnosticArray message;
+    message.header.stamp = ros::Time::now();
+    diagnostic_msgs::DiagnosticStatus status;
+    status.name = "cosserat_cable: node";
+    status.hardware_id = "none";
+    status.level = diagnostic_msgs::DiagnosticStatus::WARN;
+    status.message = "waiting for transforms";
+    for (const std::string& reason : reasons) AddValue("missing", reason, &status);
+    message.status.push_back(status);
+    TopicSink::Diagnostics(message);
+    last_ = Clock::now();
+  }
+
+ private:
+  Clock::time_point last_ = Clock::now();
+};
+
+// The parameter robot_description as a file, for the one reader of vehicles; removed at the end.
+class DescriptionFile {
+ public:
+  explicit DescriptionFile(const std::string& text) {
+    const char* folder = std::getenv("TMPDIR");
+    path_ = std::string(folder != nullptr ? folder : "/tmp") + "/robot_description_XXXXXX";
+    const int descriptor = mkstemp(path_.data());
+    if (descriptor >= 0) close(descriptor);
+    WriteTextFile(path_, text);
+  }
+  ~DescriptionFile() { std::remove(path_.c_str()); }
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+Inputs LoadNodeInputs(const NodeOptions& options, Problems* problems) {
+  if (!options.inputs.vehicle.empty()) return LoadInputs(options.inputs, options.engine, problems);
+  std::string description;
+  if (!ros::param::get("robot_description", description)) {
+    problems->Add("", 0, "vehicle",
+                  "neither the parameter ~vehicle (a URDF file) nor robot_description is set");
+    return {};
+  }
+  const DescriptionFile file(description);
+  InputPaths paths = options.inputs;
+  paths.vehicle = file.path();
+  return LoadInputs(paths, options.engine, problems);
+}
+
+}  // namespace
+
+ExitCode RunNode(const NodeOptions& options) {
+  Problems problems;
+  const Inputs inputs = LoadNodeInputs(options, &problems);
+  if (!problems.empty()) {
+    for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
+    return kExitBadInput;
+  }
+  CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
+  std::vector<std::string> names;
+  for (const CableModel& cable : inputs.cables.cables) names.push_back(cable.name);
+  ros::NodeHandle node;
+  NodeSink sink(&node, names);
+
+  const auto hints = ros::TransportHints().tcpNoDelay();
+  const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage>(
+      "/tf", kInputQueue,
+      [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, false); },
+      ros::VoidConstPtr(), hints);
+  const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage>(
+      "/tf_static", kInputQueue,
+      [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, true); },
+      ros::VoidConstPtr(), hints);
+  ros::Subscriber joints;
+  if (options.use_joint_states) {
+    joints = node.subscribe<sensor_msgs::JointState>(
+        "/joint_states", kInputQueue,
+        [&](const sensor_msgs::JointStateConstPtr& message) { engine.Ingest(*message); },
+        ros::VoidConstPtr(), hints);
+  }
+  ROS_INFO_STREAM(names.size() << " cables wait for the transforms of their links");
+
+  const Clock::time_point start = Clock::now();
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kSpinSeconds));
+    engine.Advance(&sink);
+    for (const std::string& news : engine.TakeNews()) ROS_WARN_STREAM(news);
+    if (sink.SecondsSinceLast() > kWaitingPeriod) sink.ReportWaiting(engine.links().Missing());
+  }
+
+  Summary summary = engine.MakeSummary();
+  summary.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
+  summary.peak_memory = PeakMemory();
+  // rosout is gone by now.
+  std::fputs(summary.ToText().c_str(), stdout);
+  if (!options.json.empty() && !WriteTextFile(options.json, summary.ToJson())) {
+    return kExitFileTrouble;
+  }
+  return engine.AnyFailed() ? kExitFailed : kExitDone;
+}
+
+}  // namespace cosserat_cable

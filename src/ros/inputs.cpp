@@ -1,0 +1,181 @@
+#include "cosserat_cable/ros/inputs.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#include "cosserat_cable/cable/cable_check.h"
+#include "cosserat_cable/contact/body.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Enough of the past to see that a sample is out of order; the survey keeps no more in memory.
+constexpr std::int64_t kSurveyHistory = 5'000'000'000;  // [ns]
+
+std::string Join(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+void Feed(const BagMessage& message, LinkMotion* links) {
+  if (message.tf) links->Ingest(*message.tf, message.is_static);
+  if (message.joints) links->Ingest(*message.joints);
+}
+
+// Where the cables' clamps are when everything is first known, and whether cables can be hung
+// there.
+void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs& inputs,
+                       BagSurvey* survey, Problems* problems) {
+  for (std::size_t i = 0; i < inputs.cables.cables.size(); ++i) {
+    const CableModel& cable = inputs.cables.cables[i];
+    const CableMarks& marks = inputs.cables.marks[i];
+    const Pose X_WA = links.Evaluate(cable.a.link, time).X * cable.a.X_LC;
+    const Pose X_WB = links.Evaluate(cable.b.link, time).X * cable.b.X_LC;
+    const double chord = (X_WB.p - X_WA.p).norm();
+    survey->chords.push_back(chord);
+    CheckClampDistance(cable, marks, chord, problems);
+    for (const std::string& link : cable.avoid) {
+      const auto body = inputs.bodies.find(link);
+      if (body == inputs.bodies.end()) continue;
+      const Pose X_BW = links.Evaluate(link, time).X.Inverse();
+      const auto check = [&](const Pose& X_WC, const char* name, const SourceMark& mark) {
+        const Clearance clearance = body->second->Query(X_BW * X_WC.p, cable.diameter);
+        // A clamp sits on a surface; one that is deeper than the cable is thick sits inside.
+        if (clearance.distance >= -cable.diameter) return;
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "clamp %s lies %.1f mm inside link '%s', which the cable avoids", name,
+                      -1e3 * clearance.distance, link.c_str());
+        problems->Add(mark, text);
+      };
+      check(X_WA, "a", marks.a_link);
+      check(X_WB, "b", marks.b_link);
+    }
+  }
+}
+
+void CheckRecording(const InputPaths& paths, const EngineOptions& options, Inputs* inputs,
+                    Problems* problems) {
+  const BagReader& bags = *inputs->bags;
+  const std::string all = Join(paths.bags);
+  BagSurvey survey;
+  survey.from = bags.begin_time() + static_cast<std::int64_t>(paths.start * 1e9);
+  survey.to = paths.duration > 0 ? survey.from + static_cast<std::int64_t>(paths.duration * 1e9)
+                                 : std::numeric_limits<std::int64_t>::max();
+  if (survey.from > bags.end_time()) {
+    problems->Add(all, 0, "start", "the bag ends before");
+    return;
+  }
+
+  const std::vector<std::string> needed = NeededLinks(inputs->cables.cables);
+  LinkMotionOptions link_options = options.links;
+  LinkMotion links(inputs->vehicle, needed, link_options);
+  bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
+    Feed(message, &links);
+    links.DropBefore(links.last_stamp() - kSurveyHistory);
+    return true;
+  });
+  for (const std::string& reason : links.Missing()) {
+    problems->Add(all, reason + " in this recording");
+  }
+  survey.edges = links.edges();
+  survey.warnings = links.warnings().counts();
+  survey.gaps = links.gap_count();
+  survey.world = links.world();
+  for (const auto& [child, edge] : survey.edges) {
+    const bool by_tf =
+        edge.source == LinkMotion::Source::kTf || edge.source == LinkMotion::Source::kTfStatic;
+    if (by_tf && edge.parent == survey.world) survey.world_is_recorded = true;
+  }
+  if (!links.Missing().empty()) return;
+
+  link_options.world_frame = survey.world;
+  LinkMotion again(inputs->vehicle, needed, link_options);
+  const auto dt = static_cast<std::int64_t>(options.dt * 1e9);
+  const auto known = [&] {
+    std::int64_t begin = 0, ready = 0;
+    if (!again.Missing().empty() || !again.Range(&begin, &ready)) return false;
+    survey.first_step = (begin + dt - 1) / dt * dt;
+    return survey.first_step <= ready;
+  };
+  bool done = false;
+  bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
+    Feed(message, &again);
+    done = known();
+    return !done;
+  });
+  if (!done) {
+    again.Finish();
+    done = known();
+  }
+  if (!done) {
+    problems->Add(all, "there is no time at which all links are known together");
+    return;
+  }
+  CheckFirstInstant(again, survey.first_step, *inputs, &survey, problems);
+  inputs->survey = std::move(survey);
+}
+
+}  // namespace
+
+Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems) {
+  Inputs inputs;
+  for (const std::string& problem : options.Check()) problems->Add("", problem);
+  if (!(paths.start >= 0)) problems->Add("", 0, "start", "expected 0 s or more");
+  if (!(paths.duration >= 0)) problems->Add("", 0, "duration", "expected 0 s (all) or more");
+
+  Problems cable_problems;
+  inputs.cables = LoadCableFile(paths.cables, &cable_problems);
+  std::set<std::string> avoided;
+  for (const CableModel& cable : inputs.cables.cables) {
+    avoided.insert(cable.avoid.begin(), cable.avoid.end());
+  }
+  Problems vehicle_problems;
+  const std::string folder = std::filesystem::absolute(paths.vehicle).parent_path().string();
+  inputs.vehicle = LoadVehicle(paths.vehicle, {avoided.begin(), avoided.end()},
+                               FindPackagesFrom(folder), &vehicle_problems);
+  if (cable_problems.empty() && !inputs.vehicle.links.empty()) {
+    CheckAgainstVehicle(inputs.cables, inputs.vehicle.links, &cable_problems);
+  }
+  for (const std::string& joint : options.links.held_joints) {
+    if (vehicle_problems.empty() && inputs.vehicle.FindJoint(joint) == nullptr) {
+      vehicle_problems.Add(paths.vehicle, 0, "hold",
+                           "the vehicle has no joint '" + joint + "' to hold");
+    }
+  }
+  for (const auto& [link, shapes] : inputs.vehicle.collision) {
+    for (const Shape& shape : shapes) {
+      if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+        inputs.triangles += static_cast<int>(mesh->triangles.size());
+      }
+    }
+  }
+
+  if (vehicle_problems.empty()) inputs.bodies = MakeBodies(inputs.vehicle);
+
+  Problems bag_problems;
+  inputs.bags = std::make_unique<BagReader>(paths.bags, &bag_problems);
+  const bool usable = bag_problems.empty() && !paths.bags.empty();
+  if (usable && inputs.bags->count() == 0) {
+    bag_problems.Add(Join(paths.bags),
+                     "has neither /tf nor /joint_states: nothing moves the vehicle");
+  } else if (usable && problems->empty() && cable_problems.empty() && vehicle_problems.empty()) {
+    try {
+      CheckRecording(paths, options, &inputs, &bag_problems);
+    } catch (const std::exception& error) {
+      bag_problems.Add(Join(paths.bags), std::string("damaged: ") + error.what());
+    }
+  }
+  problems->Append(cable_problems);
+  problems->Append(vehicle_problems);
+  problems->Append(bag_problems);
+  return inputs;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,21 @@
+#include "interrupt.h"
+
+#include <csignal>
+
+namespace cosserat_cable {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void OnSignal(int) { interrupted = 1; }
+
+}  // namespace
+
+void CatchInterrupts() {
+  std::signal(SIGINT, OnSignal);
+  std::signal(SIGTERM, OnSignal);
+}
+
+bool Interrupted() { return interrupted != 0; }
+
+}  // namespace cosserat_cable

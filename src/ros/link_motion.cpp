@@ -1,0 +1,305 @@
+#include "cosserat_cable/ros/link_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "cosserat_cable/ros/conversions.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Transports reorder messages by some hundredths of a second; a bag that starts over jumps by its
+// length.
+constexpr std::int64_t kBackwardsJump = 500'000'000;  // [ns]
+// tf2's default; only the tree and the newest transforms are asked of it.
+constexpr double kBufferSeconds = 10;
+// A tree deeper than this has a cycle.
+constexpr std::size_t kMaxDepth = 1000;
+
+}  // namespace
+
+const char* ToString(LinkMotion::Source source) {
+  switch (source) {
+    case LinkMotion::Source::kUrdf:
+      return "the URDF";
+    case LinkMotion::Source::kTfStatic:
+      return "/tf_static";
+    case LinkMotion::Source::kTf:
+      return "/tf";
+    case LinkMotion::Source::kJointStates:
+      return "/joint_states";
+  }
+  return "";
+}
+
+LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
+                       LinkMotionOptions options)
+    : vehicle_(vehicle),
+      links_(links),
+      options_(std::move(options)),
+      buffer_(ros::Duration(kBufferSeconds)),
+      tree_(options_.max_gap) {
+  for (const JointModel& joint : vehicle_.joints) {
+    joint_above_[joint.child] = &joint;
+    joints_[joint.name] = &joint;
+    if (!joint.mimic.empty()) mimics_.emplace(joint.mimic, &joint);
+    const bool held =
+        std::count(options_.held_joints.begin(), options_.held_joints.end(), joint.name) > 0;
+    if (joint.type == JointModel::Type::kFixed || held) {
+      AddFixed(joint.parent, joint.child, joint.Evaluate(0), Source::kUrdf);
+    }
+  }
+  UpdateTree();
+}
+
+const JointModel* LinkMotion::JointAbove(const std::string& link) const {
+  const auto found = joint_above_.find(link);
+  return found == joint_above_.end() ? nullptr : found->second;
+}
+
+std::vector<LinkMotion::Step> LinkMotion::Ascend(const std::string& frame) const {
+  std::vector<Step> way;
+  std::string child = frame;
+  while (child != options_.world_frame && way.size() < kMaxDepth) {
+    const JointModel* joint = JointAbove(child);
+    const auto edge = edges_.find(child);
+    if (edge != edges_.end()) {
+      way.push_back({child, edge->second.parent, joint});
+    } else if (joint != nullptr) {
+      way.push_back({child, joint->parent, joint});
+    } else {
+      break;
+    }
+    child = way.back().parent;
+  }
+  return way;
+}
+
+void LinkMotion::UpdateTree() {
+  relevant_.clear();
+  std::set<std::string> roots;
+  for (const std::string& link : links_) {
+    const std::vector<Step> way = Ascend(link);
+    for (const Step& step : way) relevant_.insert(step.child);
+    roots.insert(way.empty() ? link : way.back().parent);
+  }
+  // An edge above what is the root now may still come.
+  relevant_.insert(roots.begin(), roots.end());
+  world_ = options_.world_frame;
+  if (world_.empty() && roots.size() == 1) world_ = *roots.begin();
+}
+
+bool LinkMotion::AcceptSource(const std::string& parent, const std::string& child, Source source) {
+  const auto found = edges_.find(child);
+  if (found == edges_.end()) {
+    edges_[child] = {parent, source};
+    UpdateTree();
+    return true;
+  }
+  const Edge& edge = found->second;
+  if (edge.parent != parent) {
+    warnings_.Count("frame '" + child + "' has two parents",
+                    "'" + edge.parent + "' by " + ToString(edge.source) + " is kept, '" + parent +
+                        "' by " + ToString(source) + " is ignored");
+    return false;
+  }
+  if (edge.source == source) return true;
+  // What was measured and fixed for this vehicle is better than its drawing.
+  if (edge.source == Source::kUrdf && source == Source::kTfStatic) return true;
+  warnings_.Count(
+      "frame '" + child + "' comes from two sources",
+      std::string(ToString(edge.source)) + " is kept, " + ToString(source) + " is ignored");
+  return false;
+}
+
+void LinkMotion::StoreInBuffer(const std::string& parent, const std::string& child,
+                               std::int64_t stamp, const Pose& X_PC, bool is_static) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = ToRosTime(stamp);
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = ToTransform(X_PC);
+  buffer_.setTransform(message, "cosserat_cable", is_static);
+}
+
+void LinkMotion::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
+                          Source source) {
+  if (!AcceptSource(parent, child, source)) return;
+  StoreInBuffer(parent, child, 0, X_PC, true);
+  tree_.SetFixed(parent, child, X_PC);
+}
+
+void LinkMotion::AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
+                           const Pose& X_PC, Source source) {
+  if (stamp <= 0) {
+    warnings_.Count(std::string("sample without a stamp by ") + ToString(source), child);
+    return;
+  }
+  if (!AcceptSource(parent, child, source)) return;
+  Edge* edge = &edges_[child];
+  if (edge->samples > 0 && stamp < edge->last - kBackwardsJump) {
+    Clear();
+    warnings_.Count("time ran backwards");
+  }
+  if (!has_epoch_) {
+    has_epoch_ = true;
+    epoch_ = stamp;
+  }
+  const bool in_order = edge->samples == 0 || stamp > edge->last;
+  if (!in_order) {
+    warnings_.Count(stamp == edge->last ? "sample repeated with the same stamp"
+                                        : "sample older than the one before it",
+                    "frame '" + child + "' by " + ToString(source));
+    return;
+  }
+  if (edge->samples == 0) {
+    edge->first = stamp;
+  } else {
+    const std::int64_t interval = stamp - edge->last;
+    edge->longest_interval = std::max(edge->longest_interval, interval);
+    if (static_cast<double>(interval) * 1e-9 > options_.max_gap) ++edge->gaps;
+  }
+  edge->last = stamp;
+  ++edge->samples;
+  last_stamp_ = std::max(last_stamp_, stamp);
+  if (relevant_.count(child) == 0) return;
+  StoreInBuffer(parent, child, stamp, X_PC, false);
+  if (!tree_.Append(parent, child, Seconds(stamp), X_PC)) {
+    warnings_.Count("sample ignored by the motion curve",
+                    "frame '" + child + "' by " + ToString(source));
+  }
+}
+
+void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
+  const Source source = is_static ? Source::kTfStatic : Source::kTf;
+  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
+    const std::string parent = WithoutSlash(transform.header.frame_id);
+    const std::string child = WithoutSlash(transform.child_frame_id);
+    Pose X_PC;
+    if (parent.empty() || child.empty() || parent == child) {
+      warnings_.Count(std::string("transform without proper frame ids by ") + ToString(source),
+                      "'" + parent + "' -> '" + child + "'");
+    } else if (!ToPose(transform.transform, &X_PC)) {
+      warnings_.Count(
+          std::string("transform that is no rotation or not finite by ") + ToString(source),
+          "'" + parent + "' -> '" + child + "'");
+    } else if (is_static) {
+      AddFixed(parent, child, X_PC, source);
+    } else {
+      AddSample(parent, child, ToNanoseconds(transform.header.stamp), X_PC, source);
+    }
+  }
+}
+
+void LinkMotion::IngestJoint(const JointModel& joint, double position, std::int64_t stamp) {
+  const auto edge = edges_.find(joint.child);
+  // Held at zero by the user's word, whatever the recording says.
+  if (edge != edges_.end() && edge->second.source == Source::kUrdf) return;
+  AddSample(joint.parent, joint.child, stamp, joint.Evaluate(position), Source::kJointStates);
+}
+
+void LinkMotion::Ingest(const sensor_msgs::JointState& message) {
+  const std::int64_t stamp = ToNanoseconds(message.header.stamp);
+  if (message.position.size() != message.name.size()) {
+    warnings_.Count("joint state without a position for each name");
+    return;
+  }
+  for (std::size_t i = 0; i < message.name.size(); ++i) {
+    const auto joint = joints_.find(message.name[i]);
+    const double position = message.position[i];
+    if (joint == joints_.end()) {
+      warnings_.Count("joint not in the URDF", "'" + message.name[i] + "'");
+    } else if (!std::isfinite(position)) {
+      warnings_.Count("joint position not finite", "'" + message.name[i] + "'");
+    } else if (joint->second->type != JointModel::Type::kFloating &&
+               joint->second->type != JointModel::Type::kFixed && joint->second->mimic.empty()) {
+      IngestJoint(*joint->second, position, stamp);
+      const auto followers = mimics_.equal_range(message.name[i]);
+      for (auto it = followers.first; it != followers.second; ++it) {
+        const JointModel& follower = *it->second;
+        IngestJoint(follower, follower.mimic_multiplier * position + follower.mimic_offset, stamp);
+      }
+    }
+  }
+}
+
+void LinkMotion::Finish() { tree_.Finish(); }
+
+void LinkMotion::Clear() {
+  tree_.Clear();
+  buffer_.clear();
+  for (auto& [child, edge] : edges_) {
+    edge.samples = 0;
+    edge.first = edge.last = 0;
+  }
+  has_epoch_ = false;
+  last_stamp_ = 0;
+  ++clear_count_;
+}
+
+std::vector<std::string> LinkMotion::Missing() const {
+  std::set<std::string> reasons;
+  if (world_.empty()) {
+    reasons.insert(
+        "the links have no common root frame; say which frame is inertial by world_frame");
+  }
+  for (const std::string& link : links_) {
+    const std::vector<Step> way = Ascend(link);
+    const std::string root = way.empty() ? link : way.back().parent;
+    if (!world_.empty() && root != world_) {
+      reasons.insert("no transform leads from the world frame '" + world_ + "' to link '" + link +
+                     "' (its tree ends at '" + root + "')");
+    }
+    for (const Step& step : way) {
+      if (edges_.count(step.child) > 0) continue;
+      reasons.insert("joint '" + step.joint->name + "' moves link '" + step.child +
+                     "', but neither /tf nor /joint_states drives it");
+    }
+  }
+  return {reasons.begin(), reasons.end()};
+}
+
+bool LinkMotion::Range(std::int64_t* begin, std::int64_t* ready) const {
+  double first = -std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity();
+  for (const std::string& link : links_) {
+    if (link == world_) continue;
+    first = std::max(first, tree_.BeginTime(world_, link));
+    last = std::min(last, tree_.ReadyUntil(world_, link));
+  }
+  if (!has_epoch_ || first == std::numeric_limits<double>::infinity() ||
+      last == -std::numeric_limits<double>::infinity()) {
+    return false;
+  }
+  const auto to_stamp = [this](double seconds) {
+    return epoch_ + static_cast<std::int64_t>(std::llround(seconds * 1e9));
+  };
+  // Infinite where every edge is fixed.
+  *begin = std::isfinite(first) ? to_stamp(first) : epoch_;
+  *ready = std::isfinite(last) ? to_stamp(last) : last_stamp_;
+  return true;
+}
+
+Motion LinkMotion::Evaluate(const std::string& link, std::int64_t time) const {
+  if (link == world_) return Motion();
+  return tree_.Evaluate(world_, link, Seconds(time));
+}
+
+bool LinkMotion::InGap(const std::string& link, std::int64_t time) const {
+  return link != world_ && tree_.InGap(world_, link, Seconds(time));
+}
+
+std::uint64_t LinkMotion::gap_count() const {
+  std::uint64_t gaps = 0;
+  for (const std::string& child : relevant_) {
+    const auto edge = edges_.find(child);
+    if (edge != edges_.end()) gaps += edge->second.gaps;
+  }
+  return gaps;
+}
+
+void LinkMotion::DropBefore(std::int64_t time) { tree_.DropBefore(Seconds(time)); }
+
+}  // namespace cosserat_cable

@@ -1,0 +1,144 @@
+#include "cosserat_cable/ros/replay.h"
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+
+#include "cosserat_cable/ros/bag_sink.h"
+#include "interrupt.h"
+#include "progress.h"
+
+namespace cosserat_cable {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path FolderOf(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+void CheckFolder(const std::string& path, const char* key, Problems* problems) {
+  const fs::path folder = FolderOf(path);
+  std::error_code ignored;
+  if (!fs::is_directory(folder, ignored)) {
+    problems->Add(path, 0, key, "the folder '" + folder.string() + "' does not exist");
+  } else if (access(folder.c_str(), W_OK) != 0) {
+    problems->Add(path, 0, key, "the folder '" + folder.string() + "' is not writable");
+  } else if (fs::is_directory(path, ignored)) {
+    problems->Add(path, 0, key, "got a folder, expected a file");
+  }
+}
+
+void CheckOutputs(const ReplayOptions& options, Problems* problems) {
+  if (options.inputs.bags.empty()) problems->Add("", 0, "bag", "no recording is given");
+  CheckFolder(options.output, "output", problems);
+  if (!options.json.empty()) CheckFolder(options.json, "json", problems);
+  for (const std::string& bag : options.inputs.bags) {
+    std::error_code ignored;
+    if (fs::equivalent(bag, options.output, ignored)) {
+      problems->Add(options.output, 0, "output", "is the input bag itself");
+    }
+  }
+}
+
+std::string WithoutExtension(const std::string& path) {
+  return (fs::path(path).parent_path() / fs::path(path).stem()).string();
+}
+
+void Say(CableEngine* engine) {
+  for (const std::string& news : engine->TakeNews()) {
+    std::cerr << (isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") << news << "\n";
+  }
+}
+
+// Feeds the recording through the engine into the bag; false where it was interrupted.
+bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
+  const BagSurvey& survey = *inputs.survey;
+  const std::int64_t end = std::min(survey.to, inputs.bags->end_time());
+  Progress progress(static_cast<double>(end - survey.first_step) * 1e-9);
+  const auto advance = [&] {
+    engine->Advance(sink);
+    Say(engine);
+    progress.Update(static_cast<double>(engine->now() - survey.first_step) * 1e-9);
+  };
+  inputs.bags->ForEach(survey.from, survey.to, [&](const BagMessage& message) {
+    if (message.tf) engine->Ingest(*message.tf, message.is_static);
+    if (message.joints) engine->Ingest(*message.joints);
+    sink->Copy(message);
+    advance();
+    return !Interrupted();
+  });
+  if (!Interrupted()) {
+    engine->Finish();
+    advance();
+  }
+  sink->Flush();
+  return !Interrupted();
+}
+
+}  // namespace
+
+ExitCode RunReplay(ReplayOptions options) {
+  const auto start = std::chrono::steady_clock::now();
+  Problems problems;
+  CheckOutputs(options, &problems);
+  Inputs inputs = LoadInputs(options.inputs, options.engine, &problems);
+  if (!problems.empty()) {
+    std::cerr << problems.ToString();
+    return kExitBadInput;
+  }
+  CatchInterrupts();
+  options.engine.links.world_frame = inputs.survey->world;
+  options.engine.dump_directory = FolderOf(options.output).string();
+  if (!inputs.survey->world_is_recorded) {
+    std::cerr << "no frame above the vehicle is recorded: its root '" << inputs.survey->world
+              << "' is taken as inertial\n";
+  }
+
+  CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
+  ExitCode code = kExitDone;
+  try {
+    BagWriter writer(options.output);
+    BagSink sink(&writer, inputs.survey->from);
+    try {
+      if (!Simulate(inputs, &engine, &sink)) {
+        std::cerr << "interrupted: what was simulated so far is kept in " << options.output << "\n";
+        code = kExitInterrupted;
+      }
+    } catch (const BagWriteError& error) {
+      std::cerr << error.what() << ": stopped; what was written so far is kept\n";
+      code = kExitFileTrouble;
+    } catch (const ros::Exception& error) {
+      std::cerr << "the recording cannot be read on: " << error.what() << "\n";
+      code = kExitFileTrouble;
+    }
+    writer.Close();
+    const std::string configuration = WithoutExtension(options.output) + ".cables.yaml";
+    if (!WriteTextFile(configuration, WriteCableFile(inputs.cables))) {
+      std::cerr << configuration << ": could not be written\n";
+      code = kExitFileTrouble;
+    }
+  } catch (const BagWriteError& error) {
+    std::cerr << error.what() << "\n";
+    return kExitFileTrouble;
+  }
+
+  Summary summary = engine.MakeSummary();
+  summary.wall_time =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  summary.peak_memory = PeakMemory();
+  std::cout << summary.ToText();
+  if (!options.json.empty() && !WriteTextFile(options.json, summary.ToJson())) {
+    std::cerr << options.json << ": could not be written\n";
+    code = kExitFileTrouble;
+  }
+  if (code == kExitDone && engine.AnyFailed()) code = kExitFailed;
+  return code;
+}
+
+}  // namespace cosserat_cable

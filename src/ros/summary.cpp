@@ -1,0 +1,98 @@
+#include "cosserat_cable/ros/summary.h"
+
+#include <sys/resource.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "json.h"
+
+namespace cosserat_cable {
+namespace {
+
+std::string Format(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+std::string Millimetres(double metres) {
+  return std::isfinite(metres) ? Format("%.2f", 1e3 * metres) : std::string("-");
+}
+
+}  // namespace
+
+std::string Summary::ToText() const {
+  std::ostringstream text;
+  text << "simulated " << Format("%.3f", simulated_time) << " s in " << Format("%.2f", wall_time)
+       << " s: real-time factor " << Format("%.2f", real_time_factor()) << ", peak memory "
+       << Format("%.0f", peak_memory / 1e6) << " MB\n";
+  char line[200];
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %8s\n", "cable", "amplitude",
+                "curvature", "clearance", "contact", "retries");
+  text << line;
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s\n", "", "max [mm]", "max [1/m]",
+                "min [mm]", "max [N]");
+  text << line;
+  for (const CableSummary& cable : cables) {
+    std::snprintf(
+        line, sizeof line, "%-28s %11s %12s %12s %10s %8llu\n", cable.name.c_str(),
+        Millimetres(cable.amplitude_max).c_str(), Format("%.2f", cable.curvature_max).c_str(),
+        Millimetres(cable.clearance_min).c_str(), Format("%.2f", cable.contact_force_max).c_str(),
+        static_cast<unsigned long long>(cable.retried_steps));
+    text << line;
+    if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
+  }
+  if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
+  if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
+  for (const auto& [kind, count] : warnings) text << "warning: " << kind << ": " << count << "\n";
+  return text.str();
+}
+
+std::string Summary::ToJson() const {
+  std::ostringstream json;
+  json << "{\n  \"simulated_time\": " << JsonNumber(simulated_time)
+       << ",\n  \"wall_time\": " << JsonNumber(wall_time)
+       << ",\n  \"real_time_factor\": " << JsonNumber(real_time_factor())
+       << ",\n  \"peak_memory\": " << JsonNumber(peak_memory)
+       << ",\n  \"world_frame\": " << JsonString(world_frame) << ",\n  \"resets\": " << resets
+       << ",\n  \"gaps\": " << gaps << ",\n  \"warnings\": {";
+  const char* separator = "";
+  for (const auto& [kind, count] : warnings) {
+    json << separator << "\n    " << JsonString(kind) << ": " << count;
+    separator = ",";
+  }
+  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"cables\": {";
+  separator = "";
+  for (const CableSummary& cable : cables) {
+    json << separator << "\n    " << JsonString(cable.name) << ": {\"steps\": " << cable.steps
+         << ", \"retried_steps\": " << cable.retried_steps
+         << ", \"iterations\": " << cable.iterations
+         << ", \"amplitude_max\": " << JsonNumber(cable.amplitude_max)
+         << ", \"curvature_max\": " << JsonNumber(cable.curvature_max)
+         << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
+         << ", \"contact_force_max\": " << JsonNumber(cable.contact_force_max)
+         << ", \"tension_max\": " << JsonNumber(cable.tension_max) << ", \"failure\": "
+         << (cable.failure.empty() ? std::string("null") : JsonString(cable.failure)) << "}";
+    separator = ",";
+  }
+  json << "\n  }\n}\n";
+  return json.str();
+}
+
+double PeakMemory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) * 1024;
+}
+
+bool WriteTextFile(const std::string& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text;
+  file.close();
+  return !file.fail();
+}
+
+}  // namespace cosserat_cable

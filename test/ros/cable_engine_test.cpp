@@ -1,0 +1,185 @@
+#include "cosserat_cable/ros/cable_engine.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "cosserat_cable/ros/conversions.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr std::int64_t kStart = 1'000'000'300'000;  // [ns], not on the grid of steps
+constexpr std::int64_t kPeriod = 5'000'000;         // 200 Hz
+
+class Recorder : public OutputSink {
+ public:
+  void Telemetry(const std::string& cable, const ApexTelemetry& message) override {
+    telemetry[cable].push_back(message);
+  }
+  void Markers(const std::string& cable, const visualization_msgs::MarkerArray& message) override {
+    markers[cable].push_back(message);
+  }
+  void Diagnostics(const diagnostic_msgs::DiagnosticArray& message) override {
+    diagnostics.push_back(message);
+  }
+  std::map<std::string, std::vector<ApexTelemetry>> telemetry;
+  std::map<std::string, std::vector<visualization_msgs::MarkerArray>> markers;
+  std::vector<diagnostic_msgs::DiagnosticArray> diagnostics;
+};
+
+// An arch between two links of its own: the second can be torn away.
+CableModel MakeCable(const std::string& name, const std::string& other_link) {
+  CableModel cable;
+  cable.name = name;
+  cable.reference = cable.a.link = "base";
+  cable.b.link = other_link;
+  cable.b.X_LC.p = {0.1, 0, 0};
+  cable.b.X_LC.q = Eigen::Quaterniond(0, 0, 1, 0);  // its tangent points down
+  cable.length = 0.2;
+  cable.diameter = 0.008;
+  cable.mass_per_length = 0.15;
+  cable.EI1 = cable.EI2 = 0.008;
+  cable.GJ = 0.006;
+  cable.EA = 16 * cable.EI1 / (cable.diameter * cable.diameter);
+  cable.GA1 = cable.GA2 = cable.EA / 3;
+  cable.eta_EI1 = cable.eta_EI2 = 1e-4;
+  cable.eta_GJ = 5e-5;
+  cable.eta_EA = 4 * cable.length / M_PI * std::sqrt(cable.mass_per_length * cable.EA);
+  cable.eta_GA1 = cable.eta_GA2 = 2 * std::sqrt(cable.rhoI() * cable.GA1);
+  cable.apex_s = cable.length / 2;
+  cable.elements = 20;
+  return cable;
+}
+
+class CableEngineTest : public testing::Test {
+ protected:
+  CableEngineTest() {
+    char folder[] = "/tmp/cable_engine_test_XXXXXX";
+    folder_ = mkdtemp(folder);
+    options_.dump_directory = folder_;
+    vehicle_.root = "base";
+    vehicle_.links = {"base", "other"};
+  }
+  ~CableEngineTest() override { std::filesystem::remove_all(folder_); }
+
+  // Shakes the base by 1 mm at 10 Hz; the other link is `tear` metres off it.
+  void Feed(
+      CableEngine* engine, std::int64_t from, int samples,
+      const std::function<double(double)>& tear = [](double) { return 0.0; }) {
+    for (int i = 0; i < samples; ++i) {
+      const std::int64_t stamp = from + i * kPeriod;
+      const double t = 1e-9 * static_cast<double>(stamp - kStart);
+      tf2_msgs::TFMessage message;
+      message.transforms.resize(2);
+      message.transforms[0].header.frame_id = "odom";
+      message.transforms[0].child_frame_id = "base";
+      message.transforms[0].transform.translation.x = 0.001 * std::sin(2 * M_PI * 10 * t);
+      message.transforms[1].header.frame_id = "base";
+      message.transforms[1].child_frame_id = "other";
+      message.transforms[1].transform.translation.x = tear(t);
+      for (auto& transform : message.transforms) {
+        transform.header.stamp = ToRosTime(stamp);
+        transform.transform.rotation.w = 1;
+      }
+      engine->Ingest(message, false);
+      engine->Advance(&out_);
+    }
+  }
+
+  std::string folder_;
+  VehicleModel vehicle_;
+  BodyMap bodies_;
+  EngineOptions options_;
+  Recorder out_;
+};
+
+TEST_F(CableEngineTest, StampsAreOnTheGridAndReachTheEnd) {
+  CableEngine engine(vehicle_, bodies_, {MakeCable("c", "base")}, options_);
+  Feed(&engine, kStart, 201);
+  engine.Finish();
+  engine.Advance(&out_);
+  const auto& telemetry = out_.telemetry.at("c");
+  // Steps from 1000.001 to 1001.000 s, telemetry on multiples of 5 ms within.
+  ASSERT_EQ(telemetry.size(), 200u);
+  for (std::size_t i = 0; i < telemetry.size(); ++i) {
+    const std::int64_t expected = 1'000'005'000'000 + static_cast<std::int64_t>(i) * 5'000'000;
+    EXPECT_EQ(ToNanoseconds(telemetry[i].header.stamp), expected);
+    EXPECT_EQ(telemetry[i].header.frame_id, "base");
+    EXPECT_FALSE(telemetry[i].held);
+  }
+  EXPECT_EQ(out_.markers.at("c").size(), 30u);
+  EXPECT_EQ(engine.now(), 1'001'000'000'000);
+  EXPECT_FALSE(engine.AnyFailed());
+}
+
+TEST_F(CableEngineTest, SameInputSameBits) {
+  std::vector<std::vector<ApexTelemetry>> runs;
+  for (int run = 0; run < 2; ++run) {
+    out_ = Recorder();
+    CableEngine engine(vehicle_, bodies_, {MakeCable("c", "base")}, options_);
+    Feed(&engine, kStart, 60);
+    runs.push_back(out_.telemetry.at("c"));
+  }
+  EXPECT_EQ(runs[0], runs[1]);
+}
+
+TEST_F(CableEngineTest, RunningBackwardsSettlesAnew) {
+  CableEngine engine(vehicle_, bodies_, {MakeCable("c", "base")}, options_);
+  Feed(&engine, kStart, 300);
+  const std::size_t first_run = out_.telemetry.at("c").size();
+  Feed(&engine, kStart, 300);
+  const auto& telemetry = out_.telemetry.at("c");
+  ASSERT_EQ(telemetry.size(), 2 * first_run);
+  for (std::size_t i = 0; i < first_run; ++i) {
+    EXPECT_EQ(telemetry[i], telemetry[first_run + i]) << i;
+  }
+  EXPECT_EQ(engine.MakeSummary().resets, 1u);
+}
+
+TEST_F(CableEngineTest, GapsAreFlagged) {
+  CableEngine engine(vehicle_, bodies_, {MakeCable("c", "other")}, options_);
+  Feed(&engine, kStart, 41);
+  Feed(&engine, kStart + 700'000'000, 41);
+  engine.Finish();
+  engine.Advance(&out_);
+  std::size_t held = 0;
+  for (const ApexTelemetry& m : out_.telemetry.at("c")) held += m.held ? 1 : 0;
+  // The gap lasts 0.5 s: from 0.2003 to 0.7003 s at 200 Hz.
+  EXPECT_EQ(held, 100u);
+  EXPECT_EQ(engine.MakeSummary().gaps, 2u);
+}
+
+TEST_F(CableEngineTest, AFailedCableStopsAndTheOthersGoOn) {
+  CableEngine engine(vehicle_, bodies_, {MakeCable("torn", "other"), MakeCable("whole", "base")},
+                     options_);
+  // Away at 1e5 m/s, which no cable survives.
+  Feed(&engine, kStart, 400, [](double t) { return t < 1 ? 0.0 : 1e5 * (t - 1); });
+  const Summary summary = engine.MakeSummary();
+  EXPECT_TRUE(engine.AnyFailed());
+  EXPECT_FALSE(summary.cables[0].failure.empty());
+  EXPECT_TRUE(summary.cables[1].failure.empty());
+  EXPECT_LT(out_.telemetry.at("torn").size(), out_.telemetry.at("whole").size());
+  EXPECT_EQ(out_.diagnostics.back().status[1].level, diagnostic_msgs::DiagnosticStatus::ERROR);
+  EXPECT_EQ(out_.diagnostics.back().status[2].level, diagnostic_msgs::DiagnosticStatus::OK);
+  EXPECT_FALSE(std::filesystem::is_empty(folder_));
+  EXPECT_EQ(out_.markers.at("torn").back().markers[0].action, visualization_msgs::Marker::DELETE);
+  for (const auto& [name, messages] : out_.telemetry) {
+    for (const ApexTelemetry& m : messages) EXPECT_TRUE(std::isfinite(m.position_x)) << name;
+  }
+}
+
+TEST_F(CableEngineTest, OptionsOutOfRangeAreListed) {
+  options_.dt = 1;
+  options_.amplitude_window = NAN;
+  options_.markers.curvature_scale = -1;
+  // dt also makes the rates too high.
+  EXPECT_EQ(options_.Check().size(), 5u);
+  EXPECT_TRUE(EngineOptions().Check().empty());
+}
+
+}  // namespace
+}  // namespace cosserat_cable

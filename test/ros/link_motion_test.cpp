@@ -1,0 +1,200 @@
+#include "cosserat_cable/ros/link_motion.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "cosserat_cable/ros/conversions.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr std::int64_t kStart = 1'000'000'000'000;  // [ns]
+constexpr std::int64_t kPeriod = 10'000'000;        // 100 Hz
+
+JointModel MakeJoint(const char* name, const char* parent, const char* child,
+                     JointModel::Type type) {
+  JointModel joint;
+  joint.name = name;
+  joint.parent = parent;
+  joint.child = child;
+  joint.type = type;
+  joint.axis = Eigen::Vector3d::UnitZ();
+  return joint;
+}
+
+// base -(travel)-> strut -(mount)-> carrier, and an arm that mimics the travel.
+VehicleModel MakeVehicle() {
+  VehicleModel vehicle;
+  vehicle.root = "base";
+  vehicle.links = {"base", "strut", "carrier", "arm"};
+  vehicle.joints = {MakeJoint("travel", "base", "strut", JointModel::Type::kPrismatic),
+                    MakeJoint("mount", "strut", "carrier", JointModel::Type::kFixed),
+                    MakeJoint("arm_joint", "base", "arm", JointModel::Type::kRevolute)};
+  vehicle.joints[1].X_PJ.p = {0, 0.5, 0};
+  vehicle.joints[2].mimic = "travel";
+  vehicle.joints[2].mimic_multiplier = 3;
+  return vehicle;
+}
+
+tf2_msgs::TFMessage Transform(const char* parent, const char* child, std::int64_t stamp,
+                              const Pose& pose) {
+  tf2_msgs::TFMessage message;
+  message.transforms.resize(1);
+  message.transforms[0].header.frame_id = parent;
+  message.transforms[0].header.stamp = ToRosTime(stamp);
+  message.transforms[0].child_frame_id = child;
+  message.transforms[0].transform = ToTransform(pose);
+  return message;
+}
+
+sensor_msgs::JointState Joints(std::int64_t stamp, double travel) {
+  sensor_msgs::JointState message;
+  message.header.stamp = ToRosTime(stamp);
+  message.name = {"travel"};
+  message.position = {travel};
+  return message;
+}
+
+Pose BodyPose(double t) {
+  Pose pose;
+  pose.p = {15 * t, 0.02 * std::sin(9 * t), 0.3};
+  pose.q = Eigen::AngleAxisd(0.1 * std::sin(5 * t), Eigen::Vector3d(1, 2, 3).normalized());
+  return pose;
+}
+
+void Drive(LinkMotion* links, std::int64_t start, int samples) {
+  for (int i = 0; i < samples; ++i) {
+    const std::int64_t stamp = start + i * kPeriod;
+    const double t = 1e-9 * static_cast<double>(i * kPeriod);
+    links->Ingest(Transform("odom", "base", stamp, BodyPose(t)), false);
+    links->Ingest(Joints(stamp, 0.03 * std::sin(20 * t)));
+  }
+}
+
+class LinkMotionTest : public testing::Test {
+ protected:
+  VehicleModel vehicle_ = MakeVehicle();
+  std::vector<std::string> needed_ = {"base", "carrier", "arm"};
+  LinkMotionOptions options_;
+};
+
+TEST_F(LinkMotionTest, FollowsWhatTf2Says) {
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 60);
+  EXPECT_EQ(links.world(), "odom");
+  EXPECT_TRUE(links.Missing().empty());
+  std::int64_t begin = 0, ready = 0;
+  ASSERT_TRUE(links.Range(&begin, &ready));
+  EXPECT_EQ(begin, kStart);
+  // At the samples themselves tf2 interpolates nothing. Rounding through metres of 15 m/s and
+  // quaternions.
+  constexpr double kRounding = 1e-12;
+  for (std::int64_t stamp = begin; stamp <= ready; stamp += kPeriod) {
+    for (const std::string& link : needed_) {
+      const Pose X = links.Evaluate(link, stamp).X;
+      Pose expected;
+      ASSERT_TRUE(ToPose(links.buffer().lookupTransform("odom", link, ToRosTime(stamp)).transform,
+                         &expected));
+      EXPECT_LT((X.p - expected.p).norm(), kRounding) << link;
+      EXPECT_LT(X.q.angularDistance(expected.q), 1e-7) << link;  // acos near 1
+    }
+  }
+}
+
+TEST_F(LinkMotionTest, SaysWhatIsMissing) {
+  LinkMotion links(vehicle_, needed_, options_);
+  links.Ingest(Transform("odom", "base", kStart, Pose()), false);
+  const std::vector<std::string> missing = links.Missing();
+  ASSERT_EQ(missing.size(), 2u);
+  EXPECT_NE(missing[0].find("'arm_joint'"), std::string::npos);
+  EXPECT_NE(missing[1].find("'travel'"), std::string::npos);
+}
+
+TEST_F(LinkMotionTest, HeldJointsNeedNoData) {
+  options_.held_joints = {"travel", "arm_joint"};
+  LinkMotion links(vehicle_, needed_, options_);
+  links.Ingest(Transform("odom", "base", kStart, Pose()), false);
+  EXPECT_TRUE(links.Missing().empty());
+}
+
+TEST_F(LinkMotionTest, WorldFrameThatIsNowhereIsMissing) {
+  options_.world_frame = "map";
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 3);
+  ASSERT_FALSE(links.Missing().empty());
+  EXPECT_NE(links.Missing()[0].find("'map'"), std::string::npos);
+}
+
+TEST_F(LinkMotionTest, FirstSourceOfAnEdgeStays) {
+  LinkMotion links(vehicle_, needed_, options_);
+  links.Ingest(Transform("base", "strut", kStart, Pose()), false);
+  Drive(&links, kStart, 30);
+  EXPECT_EQ(links.edges().at("strut").source, LinkMotion::Source::kTf);
+  EXPECT_EQ(links.edges().at("strut").samples, 1u);
+  EXPECT_EQ(links.warnings().counts().at("frame 'strut' comes from two sources"), 30u);
+  EXPECT_EQ(links.edges().at("arm").source, LinkMotion::Source::kJointStates);
+}
+
+TEST_F(LinkMotionTest, TimeRunningBackwardsForgetsTheSamples) {
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 100);
+  Drive(&links, kStart, 40);
+  EXPECT_EQ(links.clear_count(), 1u);
+  std::int64_t begin = 0, ready = 0;
+  ASSERT_TRUE(links.Range(&begin, &ready));
+  EXPECT_EQ(begin, kStart);
+  EXPECT_LE(ready, kStart + 39 * kPeriod);
+}
+
+TEST_F(LinkMotionTest, OldAndRepeatedSamplesAreCountedAndIgnored) {
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 10);
+  links.Ingest(Joints(kStart + 9 * kPeriod, 0.5));
+  links.Ingest(Joints(kStart + 8 * kPeriod, 0.5));
+  EXPECT_EQ(links.edges().at("strut").samples, 10u);
+  // The arm follows the strut, so each joint state is two samples.
+  EXPECT_EQ(links.warnings().counts().at("sample repeated with the same stamp"), 2u);
+  EXPECT_EQ(links.warnings().counts().at("sample older than the one before it"), 2u);
+  EXPECT_EQ(links.clear_count(), 0u);
+}
+
+TEST_F(LinkMotionTest, UnusableSamplesAreCountedAndIgnored) {
+  LinkMotion links(vehicle_, needed_, options_);
+  auto bad = Transform("odom", "base", kStart, Pose());
+  bad.transforms[0].transform.rotation.w = 0;
+  links.Ingest(bad, false);
+  bad.transforms[0].transform.rotation.w = NAN;
+  links.Ingest(bad, false);
+  links.Ingest(Transform("odom", "odom", kStart, Pose()), false);
+  links.Ingest(Joints(kStart, NAN));
+  sensor_msgs::JointState none = Joints(kStart, 0);
+  none.position.clear();
+  links.Ingest(none);
+  links.Ingest(Transform("odom", "base", 0, Pose()), false);
+  EXPECT_EQ(links.edges().count("base"), 0u);
+  EXPECT_EQ(links.warnings().counts().size(), 5u);
+  EXPECT_EQ(links.warnings().TakeNew().size(), 5u);
+  EXPECT_TRUE(links.warnings().TakeNew().empty());
+}
+
+TEST_F(LinkMotionTest, GapsAreCounted) {
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 20);
+  const std::int64_t later = kStart + 500'000'000;
+  Drive(&links, later, 20);
+  // base, strut and arm.
+  EXPECT_EQ(links.gap_count(), 3u);
+  links.Finish();
+  EXPECT_TRUE(links.InGap("carrier", kStart + 300'000'000));
+  EXPECT_FALSE(links.InGap("carrier", kStart + 100'000'000));
+}
+
+TEST_F(LinkMotionTest, LeadingSlashesOfOldRecordingsAreDropped) {
+  LinkMotion links(vehicle_, needed_, options_);
+  links.Ingest(Transform("/odom", "/base", kStart, Pose()), false);
+  EXPECT_EQ(links.edges().at("base").parent, "odom");
+}
+
+}  // namespace
+}  // namespace cosserat_cable
