@@ -2,14 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
-#include "contact_set.h"
+#include "cable_simulation_impl.h"
 #include "cosserat_cable/math/motion_between.h"
-#include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/initial_shape.h"
-#include "cosserat_cable/rod/rod.h"
-#include "nearest_body.h"
 
 namespace cosserat_cable {
 namespace {
@@ -50,48 +46,31 @@ bool IsFinite(const Motion& m) {
          m.omega.allFinite() && m.a.allFinite() && m.alpha.allFinite();
 }
 
+}  // namespace
+
 bool IsFinite(const Surroundings& s) {
   return IsFinite(s.a) && IsFinite(s.b) &&
          std::all_of(s.obstacles.begin(), s.obstacles.end(),
                      [](const Motion& m) { return IsFinite(m); });
 }
 
-}  // namespace
+StepOutcome RefuseNonFinite() {
+  StepOutcome outcome;
+  outcome.ok = false;
+  outcome.substeps = 0;
+  outcome.message = "a clamp's or body's motion is not finite";
+  return outcome;
+}
 
-struct CableSimulation::Impl {
-  Impl(const CableModel& m, const std::vector<const Body*>& bodies, const Eigen::Vector3d& gravity,
-       double clearance_reach)
-      : model(m),
-        gravity_W(gravity),
-        rod(MakeRodModel(m, gravity)),
-        contact(m, bodies),
-        nearest(contact.sites(), bodies, clearance_reach + 0.5 * m.diameter),
-        nodes(m.elements + 1),
-        positions(m.elements + 1) {}
-
-  void UpdateNodes() {
-    for (int i = 0; i <= model.elements; ++i) nodes[i] = rod.pose(i);
-  }
-  void Positions() {
-    for (int i = 0; i <= model.elements; ++i) positions[i] = ToEigen(rod.position(i));
-  }
-  const rod::Load* load() const { return contact.empty() ? nullptr : &contact; }
-
-  rod::SolveReport SubStep(double dt, const Surroundings& then) {
-    rod.Predict(dt, then.a, then.b, &positions);
-    contact.Search(positions, then.obstacles);
-    return rod.Step(dt, then.a, then.b, load());
-  }
-
-  CableModel model;
-  Eigen::Vector3d gravity_W;
-  rod::Rod rod;
-  ContactSet contact;
-  NearestBody nearest;
-  Surroundings now;
-  std::vector<Pose> nodes;
-  std::vector<Eigen::Vector3d> positions;  // scratch: where contact is searched
-};
+CableSimulation::Impl::Impl(const CableModel& m, const std::vector<const Body*>& bodies,
+                            const Eigen::Vector3d& gravity, double clearance_reach)
+    : model(m),
+      gravity_W(gravity),
+      rod(MakeRodModel(m, gravity)),
+      contact(m, bodies),
+      nearest(contact.sites(), bodies, clearance_reach + 0.5 * m.diameter),
+      nodes(m.elements + 1),
+      positions(m.elements + 1) {}
 
 CableSimulation::CableSimulation(const CableModel& model, std::vector<const Body*> obstacles,
                                  const Eigen::Vector3d& gravity_W, double clearance_reach)
@@ -123,7 +102,7 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
   // Contact at rest: the surfaces near the shape, the shape that they leave, and again.
   bool settled = false;
   for (int round = 0; round < kMaxContactRounds && !settled; ++round) {
-    m.Positions();
+    m.TakePositions();
     const std::vector<Eigen::Vector3d> before = m.positions;
     m.contact.Search(m.positions, now.obstacles);
     if (m.contact.empty() && round == 0) {
@@ -143,7 +122,7 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
     outcome.message = "no equilibrium found against the bodies that the cable touches at rest";
     return outcome;
   }
-  m.Positions();
+  m.TakePositions();
   m.contact.Search(m.positions, now.obstacles);
   m.contact.Accept();
   m.rod.AddRigidMotion(now.a.X.p, now.a.v, now.a.X.q * now.a.omega);
@@ -154,41 +133,50 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
 
 StepOutcome CableSimulation::Step(double dt, const Surroundings& then) {
   Impl& m = *impl_;
+  if (!IsFinite(then)) return RefuseNonFinite();
+  m.SearchContact(dt, then);
+  const rod::SolveReport report = m.rod.Step(dt, then.a, then.b, m.load());
+  if (!report.converged) return m.StepInParts(dt, then, report.iterations);
+  m.Accept(then);
   StepOutcome outcome;
+  outcome.iterations = report.iterations;
+  return outcome;
+}
+
+StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& then,
+                                               int iterations_so_far) {
+  StepOutcome outcome;
+  outcome.iterations = iterations_so_far;
   outcome.substeps = 0;
-  if (!IsFinite(then)) {
-    outcome.ok = false;
-    outcome.message = "a clamp's or body's motion is not finite";
-    return outcome;
-  }
-  // Halve the step where it does not converge. A step that fails leaves the state as it was.
-  std::optional<std::pair<rod::Rod, ContactSet>> start;  // set before the first substep only
-  double done = 0, step = dt;
-  int halvings = 0;
+  rod::Rod rod_at_start = rod;
+  ContactSet contact_at_start = contact;
+  double done = 0, step = 0.5 * dt;
+  int halvings = 1;
   while (done < dt) {
     const bool last = done + step >= dt * (1 - 1e-9);
-    const rod::SolveReport report =
-        m.SubStep(last ? dt - done : step, last ? then : Between(m.now, then, dt, done + step));
+    const double part = last ? dt - done : step;
+    const Surroundings next = last ? then : Between(now, then, dt, done + step);
+    SearchContact(part, next);
+    const rod::SolveReport report = rod.Step(part, next.a, next.b, load());
     outcome.iterations += report.iterations;
     if (report.converged) {
-      m.contact.Accept();
+      contact.Accept();
       ++outcome.substeps;
       done = last ? dt : done + step;
     } else if (halvings < kMaxHalvings) {
-      if (!start) start.emplace(m.rod, m.contact);
       ++halvings;
       step *= 0.5;
     } else {
-      m.rod = std::move(start->first);
-      m.contact = std::move(start->second);
+      rod = std::move(rod_at_start);
+      contact = std::move(contact_at_start);
       outcome.ok = false;
       outcome.message = "Newton's iteration does not converge, with steps down to " +
                         std::to_string(step * 1e6) + " us";
       return outcome;
     }
   }
-  m.now = then;
-  m.UpdateNodes();
+  now = then;
+  UpdateNodes();
   return outcome;
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "cosserat_cable/math/lanes.h"
 #include "cosserat_cable/math/small.h"
 
 namespace cosserat_cable::rod {
@@ -62,7 +63,7 @@ class BlockTridiagonal {
       if (i > first) SubtractCoupling(lower_[i - 1], inverse_[i - 1], &s);
       FactoriseBlock(&s, &inverse_[i]);
 #pragma GCC unroll 6
-      for (int k = 0; k < 6; ++k) smallest = s[k][k] < smallest ? s[k][k] : smallest;
+      for (int k = 0; k < 6; ++k) smallest = Min(smallest, s[k][k]);
       if (i < last) SolveUnitLower(s, &lower_[i]);
     }
     return smallest;

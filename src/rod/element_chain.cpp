@@ -49,28 +49,94 @@ Mat3<double> Lane(const Mat3<Lanes>& a, int lane) {
   return out;
 }
 
+Vec3<double> Lane(const Vec3<Lanes>& v, int lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
+
+template <class T>
+void AddForces(const ElementForces<T>& forces, Vec6<T>* a, Vec6<T>* b) {
+  (*a)[0] += forces.f.x;
+  (*a)[1] += forces.f.y;
+  (*a)[2] += forces.f.z;
+  (*b)[0] -= forces.f.x;
+  (*b)[1] -= forces.f.y;
+  (*b)[2] -= forces.f.z;
+  (*a)[3] -= forces.g1.x;
+  (*a)[4] -= forces.g1.y;
+  (*a)[5] -= forces.g1.z;
+  (*b)[3] -= forces.g2.x;
+  (*b)[4] -= forces.g2.y;
+  (*b)[5] -= forces.g2.z;
+}
+
+// Only lower triangles of the diagonal blocks are read: quarter (0, 1) is never filled. An element
+// sets the block of its second node and adds to that of its first.
+template <class T>
+void ClearFront(BlockTridiagonal<T>* system) {
+  Block6<T>& front = system->diagonal(0);
+  const T zero(0.0);
+  const Vec3<T> none{zero, zero, zero};
+  const Mat3<T> nothing = Outer(none, none);
+  front.SetQuarter(0, 0, nothing);
+  front.SetQuarter(1, 0, nothing);
+  front.SetQuarter(1, 1, nothing);
+}
+
+template <class T>
+void AddTangent(const ElementTangent<T>& k, int e, BlockTridiagonal<T>* system) {
+  const Mat3<T> r2_transposed = Transpose(k.r2);
+  Block6<T>& a = system->diagonal(e);
+  a.AddQuarter(0, 0, k.rr);
+  a.AddQuarter(1, 0, -Transpose(k.r1));
+  a.AddQuarter(1, 1, k.t11);
+  Block6<T>& b = system->diagonal(e + 1);
+  b.SetQuarter(0, 0, k.rr);
+  b.SetQuarter(1, 0, r2_transposed);
+  b.SetQuarter(1, 1, k.t22);
+  Block6<T>& c = system->lower(e);
+  c.SetQuarter(0, 0, -k.rr);
+  c.SetQuarter(0, 1, k.r1);
+  c.SetQuarter(1, 0, -r2_transposed);
+  c.SetQuarter(1, 1, Transpose(k.t12));
+}
+
+constexpr int Entries(int elements, double*) { return (elements + kLanes - 1) / kLanes; }
+constexpr int Entries(int elements, Lanes*) { return elements; }
+
 }  // namespace
 
-ElementChain::ElementChain(int elements)
-    : elements_(elements),
-      states_((elements + kLanes - 1) / kLanes),
-      offsets_(states_.size(), Vec3<Lanes>{0.0, 0.0, 0.0}) {}
-
-void ElementChain::SetOffset(int element, const Vec3<double>& offset_F) {
-  Vec3<Lanes>& group = offsets_[element / kLanes];
-  const int lane = element % kLanes;
-  group.x.v[lane] = offset_F.x;
-  group.y.v[lane] = offset_F.y;
-  group.z.v[lane] = offset_F.z;
+template <class T>
+ElementChain<T>::ElementChain(int elements)
+    : elements_(elements), states_(Entries(elements, static_cast<T*>(nullptr))) {
+  offsets_.resize(states_.size());
+  ClearOffsets();
 }
 
-void ElementChain::ClearOffsets() {
-  std::fill(offsets_.begin(), offsets_.end(), Vec3<Lanes>{0.0, 0.0, 0.0});
+template <class T>
+void ElementChain<T>::ClearOffsets() {
+  for (Vec3<Lanes>& offset : offsets_) offset = {0.0, 0.0, 0.0};
 }
 
-COSSERAT_CABLE_KERNEL
-void ElementChain::Evaluate(const Node<double>* nodes, const ElementLaw<double>& law,
-                            Vec6<double>* rhs) {
+template <class T>
+void ElementChain<T>::SetOffset(int element, int lane, const Vec3<double>& offset_F) {
+  const bool one = kLaneCount<T> == 1;
+  Vec3<Lanes>& entry = offsets_[one ? element / kLanes : element];
+  const int l = one ? element % kLanes : lane;
+  SetLane(&entry.x, l, offset_F.x);
+  SetLane(&entry.y, l, offset_F.y);
+  SetLane(&entry.z, l, offset_F.z);
+}
+
+template <class T>
+ElementStress ElementChain<T>::Stress(int element, int lane) const {
+  const bool one = kLaneCount<T> == 1;
+  const ElementState<Lanes>& e = states_[one ? element / kLanes : element];
+  const int l = one ? element % kLanes : lane;
+  return {Lane(e.gamma, l), Lane(e.gamma_dot, l), Lane(e.kappa, l), Lane(e.n, l), Lane(e.m, l)};
+}
+
+template <>
+COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* nodes,
+                                                          const ElementLaw<double>& law,
+                                                          Vec6<double>* rhs) {
   const ElementLaw<Lanes> wide = Broadcast(law);
   for (int first = 0; first < elements_; first += kLanes) {
     // The lanes left over at the end repeat the last element.
@@ -81,57 +147,52 @@ void ElementChain::Evaluate(const Node<double>* nodes, const ElementLaw<double>&
     EvaluateStress(wide, offsets_[first / kLanes], &state);
     const ElementForces<Lanes> forces = EvaluateForces(state);
     const int lanes = std::min(kLanes, elements_ - first);
-    for (int lane = 0; lane < lanes; ++lane) {
-      Vec6<double>&a = rhs[first + lane], &b = rhs[first + lane + 1];
-      a[0] += forces.f.x[lane];
-      a[1] += forces.f.y[lane];
-      a[2] += forces.f.z[lane];
-      b[0] -= forces.f.x[lane];
-      b[1] -= forces.f.y[lane];
-      b[2] -= forces.f.z[lane];
-      a[3] -= forces.g1.x[lane];
-      a[4] -= forces.g1.y[lane];
-      a[5] -= forces.g1.z[lane];
-      b[3] -= forces.g2.x[lane];
-      b[4] -= forces.g2.y[lane];
-      b[5] -= forces.g2.z[lane];
-    }
+    for (int l = 0; l < lanes; ++l)
+      AddForces(ElementForces<double>{Lane(forces.f, l), Lane(forces.g1, l), Lane(forces.g2, l)},
+                &rhs[first + l], &rhs[first + l + 1]);
   }
 }
 
-COSSERAT_CABLE_KERNEL
-void ElementChain::AssembleTangent(double h, const Vec3<double>& C_F, const Vec3<double>& C_M,
-                                   BlockTridiagonal<double>* system) const {
-  const Vec3<Lanes> wide_F = Broadcast(C_F), wide_M = Broadcast(C_M);
-  const Lanes wide_h = h;
-  // Only lower triangles of the diagonal blocks are read: quarter (0, 1) is never filled. An
-  // element sets the block of its second node and adds to that of its first.
-  Block6<double>& front = system->diagonal(0);
-  front.SetQuarter(0, 0, {});
-  front.SetQuarter(1, 0, {});
-  front.SetQuarter(1, 1, {});
-  for (int first = 0; first < elements_; first += kLanes) {
-    ElementTangent<Lanes> k = EvaluateTangent(states_[first / kLanes], wide_h, wide_F, wide_M);
-    const int lanes = std::min(kLanes, elements_ - first);
-    for (int lane = 0; lane < lanes; ++lane) {
-      const int e = first + lane;
-      const Mat3<double> rr = Lane(k.rr, lane), r1 = Lane(k.r1, lane);
-      const Mat3<double> r2_transposed = Transpose(Lane(k.r2, lane));
-      Block6<double>& a = system->diagonal(e);
-      a.AddQuarter(0, 0, rr);
-      a.AddQuarter(1, 0, -Transpose(r1));
-      a.AddQuarter(1, 1, Lane(k.t11, lane));
-      Block6<double>& b = system->diagonal(e + 1);
-      b.SetQuarter(0, 0, rr);
-      b.SetQuarter(1, 0, r2_transposed);
-      b.SetQuarter(1, 1, Lane(k.t22, lane));
-      Block6<double>& c = system->lower(e);
-      c.SetQuarter(0, 0, -rr);
-      c.SetQuarter(0, 1, r1);
-      c.SetQuarter(1, 0, -r2_transposed);
-      c.SetQuarter(1, 1, Transpose(Lane(k.t12, lane)));
-    }
+template <>
+COSSERAT_CABLE_KERNEL void ElementChain<Lanes>::Evaluate(const Node<Lanes>* nodes,
+                                                         const ElementLaw<Lanes>& law,
+                                                         Vec6<Lanes>* rhs) {
+  for (int e = 0; e < elements_; ++e) {
+    ElementState<Lanes>& state = states_[e];
+    EvaluateStrain(nodes[e], nodes[e + 1], law.h, &state);
+    EvaluateStress(law, offsets_[e], &state);
+    AddForces(EvaluateForces(state), &rhs[e], &rhs[e + 1]);
   }
 }
+
+template <>
+COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
+    const double& h, const Vec3<double>& C_F, const Vec3<double>& C_M,
+    BlockTridiagonal<double>* system) const {
+  const Vec3<Lanes> wide_F = Broadcast(C_F), wide_M = Broadcast(C_M);
+  const Lanes wide_h = h;
+  ClearFront(system);
+  for (int first = 0; first < elements_; first += kLanes) {
+    const ElementTangent<Lanes> k =
+        EvaluateTangent(states_[first / kLanes], wide_h, wide_F, wide_M);
+    const int lanes = std::min(kLanes, elements_ - first);
+    for (int l = 0; l < lanes; ++l)
+      AddTangent(ElementTangent<double>{Lane(k.rr, l), Lane(k.r1, l), Lane(k.r2, l), Lane(k.t11, l),
+                                        Lane(k.t12, l), Lane(k.t22, l)},
+                 first + l, system);
+  }
+}
+
+template <>
+COSSERAT_CABLE_KERNEL void ElementChain<Lanes>::AssembleTangent(
+    const Lanes& h, const Vec3<Lanes>& C_F, const Vec3<Lanes>& C_M,
+    BlockTridiagonal<Lanes>* system) const {
+  ClearFront(system);
+  for (int e = 0; e < elements_; ++e)
+    AddTangent(EvaluateTangent(states_[e], h, C_F, C_M), e, system);
+}
+
+template class ElementChain<double>;
+template class ElementChain<Lanes>;
 
 }  // namespace cosserat_cable::rod

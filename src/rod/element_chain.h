@@ -1,4 +1,5 @@
-// The elements of a rod, four at a time in the lanes of a vector.
+// All elements of a rod: of one, four elements at a time; or of four rods, the same element of
+// each.
 #pragma once
 
 #include <vector>
@@ -8,36 +9,38 @@
 
 namespace cosserat_cable::rod {
 
+/// What is known of an element after Evaluate.
+struct ElementStress {
+  Vec3<double> gamma, gamma_dot;  ///< [1], [1/s]
+  Vec3<double> kappa;             ///< [1/m]
+  Vec3<double> n, m;              ///< [N], [N m], section axes
+};
+
+/// T = double: one rod; T = Lanes: a rod in each lane.
+template <class T>
 class ElementChain {
  public:
   explicit ElementChain(int elements);
 
-  /// What the section law adds to the force of an element in this step [N].
-  void SetOffset(int element, const Vec3<double>& offset_F);
+  /// What the section law adds to the force of an element of the rod in `lane` in this step [N].
+  void SetOffset(int element, int lane, const Vec3<double>& offset_F);
   void ClearOffsets();
 
   /// Strains, rates and stresses between the `elements + 1` nodes; subtracts what they exert from
   /// `rhs`.
-  void Evaluate(const Node<double>* nodes, const ElementLaw<double>& law, Vec6<double>* rhs);
+  void Evaluate(const Node<T>* nodes, const ElementLaw<T>& law, Vec6<T>* rhs);
 
   /// Sets `system` to the tangent at what Evaluate saw, for the moduli C + V d(rate)/d(strain).
-  void AssembleTangent(double h, const Vec3<double>& C_F, const Vec3<double>& C_M,
-                       BlockTridiagonal<double>* system) const;
+  void AssembleTangent(const T& h, const Vec3<T>& C_F, const Vec3<T>& C_M,
+                       BlockTridiagonal<T>* system) const;
 
-  Vec3<double> gamma(int e) const { return OfElement(group(e).gamma, e); }
-  Vec3<double> gamma_dot(int e) const { return OfElement(group(e).gamma_dot, e); }
-  Vec3<double> kappa(int e) const { return OfElement(group(e).kappa, e); }
-  Vec3<double> force(int e) const { return OfElement(group(e).n, e); }
-  Vec3<double> moment(int e) const { return OfElement(group(e).m, e); }
+  /// Of the rod in `lane`.
+  ElementStress Stress(int element, int lane) const;
 
  private:
-  const ElementState<Lanes>& group(int e) const { return states_[e / Lanes::kCount]; }
-  static Vec3<double> OfElement(const Vec3<Lanes>& v, int e) {
-    const int lane = e % Lanes::kCount;
-    return {v.x[lane], v.y[lane], v.z[lane]};
-  }
-
   int elements_;
+  // Of one rod, element e is lane e % 4 of entry e / 4; of four, lane l of entry e belongs to rod
+  // l.
   std::vector<ElementState<Lanes>> states_;
   std::vector<Vec3<Lanes>> offsets_;
 };

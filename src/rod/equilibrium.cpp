@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lane_view.h"
 #include "rod_impl.h"
+#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -25,76 +27,79 @@ constexpr double kEnergyNoise = 1e-13;
 SolveReport Rod::Equilibrate(const Load* load) {
   Impl& m = *impl_;
   const int first = m.first_free(), last = m.last_free();
-  for (NodeState& n : m.node) n.v = n.omega = V3{};
-  m.trial = m.node;
+  for (NodeState& n : m.w.node) n.v = n.omega = V3{};
+  m.w.trial = m.w.node;
   m.PrepareStatics();
 
-  const double bending = std::min(m.law.C_M.x, m.law.C_M.y);
+  const double bending = std::min(m.w.law.C_M.x, m.w.law.C_M.y);
   const double rotation_scale = bending / m.h;                   // [N m]
   const double translation_scale = bending / (m.h * m.h * m.h);  // [N/m]
 
+  const LaneView<double> view(&m.w, 0);
   double noise = 0;
   const auto energy = [&] {
-    const double strain = m.StrainEnergy(), gravity = m.GravityEnergy(m.trial);
-    const double outside = load ? load->Energy(m) : 0.0;
+    const double strain = m.StrainEnergy(), gravity = m.GravityEnergy(m.w.trial);
+    const double outside = load ? load->Energy(view) : 0.0;
     noise = kEnergyNoise * (strain + std::abs(gravity) + std::abs(outside));
     return strain + gravity + outside;
   };
 
   SolveReport report;
   double shift = 0;
-  m.EvaluateForces();
+  EvaluateForces(&m.w);
   double current = energy();
   std::vector<NodeState> start;
-  std::vector<Vec6<Scalar>> internal, gradient;  // minus the energy's, without and with the load
+  std::vector<Vec6<double>> internal, gradient;  // minus the energy's, without and with the load
   while (report.iterations < kMaxIterations) {
     ++report.iterations;
     // Newton direction, with the smallest shift that makes the Hessian positive definite.
-    internal = m.rhs;
+    internal = m.w.rhs;
     for (;;) {
-      m.rhs = internal;
-      m.AssembleTangent(0.0);
-      if (load) m.AddLoad(*load, true, 0.0);
+      m.w.rhs = internal;
+      AssembleTangent(0.0, &m.w);
+      if (load) AddLoad(*load, 0, true, 0.0, &m.w);
       for (int i = first; i <= last; ++i)
         for (int k = 0; k < 3; ++k) {
-          m.system.diagonal(i)[k][k] += shift * translation_scale;
-          m.system.diagonal(i)[3 + k][3 + k] += shift * rotation_scale;
+          m.w.system.diagonal(i)[k][k] += shift * translation_scale;
+          m.w.system.diagonal(i)[3 + k][3 + k] += shift * rotation_scale;
         }
-      if (Factorise(&m.system, first, last) > 0) break;
+      double pivot;
+      Factorise(first, last, &m.w, &pivot);
+      if (pivot > 0) break;
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
     }
-    gradient = m.rhs;
-    Solve(m.system, m.rhs.data());
-    report.correction = m.CorrectionNorm();
-    if (!std::isfinite(report.correction)) return report;
+    gradient = m.w.rhs;
+    Solve(&m.w);
+    const CorrectionSize<double> size = MeasureCorrection(first, last, m.w);
+    report.correction = std::max(size.translation / m.model.length, size.rotation);
+    if (!std::isfinite(size.sum)) return report;
 
-    double turn = 0, move = 0, slope = 0;
+    double slope = 0;
     for (int i = first; i <= last; ++i)
       for (int k = 0; k < 3; ++k) {
-        move = std::max(move, std::abs(m.rhs[i][k]) / m.model.length);
-        turn = std::max(turn, std::abs(m.rhs[i][3 + k]));
-        slope -= gradient[i][k] * m.rhs[i][k] + gradient[i][3 + k] * m.rhs[i][3 + k];
+        slope -= gradient[i][k] * m.w.rhs[i][k] + gradient[i][3 + k] * m.w.rhs[i][3 + k];
       }
-    const double longest = std::max(turn / kMaxTurn, move / kMaxMove);
-    const std::vector<Vec6<Scalar>> direction = m.rhs;
-    start = m.trial;
+    const double longest =
+        std::max(size.rotation / kMaxTurn, size.translation / m.model.length / kMaxMove);
+    const std::vector<Vec6<double>> direction = m.w.rhs;
+    start = m.w.trial;
     double fraction = longest > 1 ? 1 / longest : 1.0;
     bool accepted = false;
     for (int halving = 0; halving < kMaxHalvings && !accepted; ++halving, fraction *= 0.5) {
       for (int i = first; i <= last; ++i) {
-        const Vec6<Scalar>& d = direction[i];
-        m.trial[i].r = start[i].r + fraction * V3{d[0], d[1], d[2]};
-        m.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
+        const Vec6<double>& d = direction[i];
+        m.w.trial[i].r = start[i].r + fraction * V3{d[0], d[1], d[2]};
+        m.w.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
       }
-      m.EvaluateForces();
+      EvaluateForces(&m.w);
       const double next = energy();
       accepted = next <= current + kSufficientDecrease * fraction * slope + noise;
       if (accepted) current = next;
     }
     if (!accepted) {
-      m.trial = start;
-      m.EvaluateForces();
+      m.w.trial = start;
+      EvaluateForces(&m.w);
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
       continue;
@@ -108,14 +113,12 @@ SolveReport Rod::Equilibrate(const Load* load) {
   }
   if (!report.converged) return report;
 
-  m.node = m.trial;
-  for (int e = 0; e < m.model.elements; ++e)
-    m.shear[e] = {m.shear1.Rest(m.chain.gamma(e).x - m.law.gamma0.x),
-                  m.shear2.Rest(m.chain.gamma(e).y - m.law.gamma0.y)};
-  // `rhs` holds forces in balance; at the clamps it holds what they must supply.
-  if (load) m.AddLoad(*load, false, 0.0);
-  std::fill(m.rate.begin(), m.rate.end(), NodeRates{});
-  std::fill(m.algorithm.begin(), m.algorithm.end(), NodeRates{});
+  // At the clamps, what is left of the forces is what they must supply.
+  if (load) AddLoad(*load, 0, false, 0.0, &m.w);
+  m.TakeIterate(true);
+  m.w.node = m.w.trial;
+  std::fill(m.w.rate.begin(), m.w.rate.end(), NodeRates<double>{});
+  std::fill(m.w.algorithm.begin(), m.w.algorithm.end(), NodeRates<double>{});
   return report;
 }
 

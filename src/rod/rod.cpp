@@ -1,8 +1,19 @@
 #include "cosserat_cable/rod/rod.h"
 
 #include "rod_impl.h"
+#include "time_step.h"
 
 namespace cosserat_cable::rod {
+namespace {
+
+/// `missing`: force in the world's axes and moment in the section's that the node lacks to balance.
+Wrench ClampWrench(const Vec6<double>& missing, const Eigen::Quaterniond& q) {
+  const Eigen::Vector3d force(-missing[0], -missing[1], -missing[2]);
+  const Eigen::Vector3d moment(-missing[3], -missing[4], -missing[5]);
+  return {force, q * moment};
+}
+
+}  // namespace
 
 Rod::Rod(const RodModel& model) : impl_(std::make_unique<Impl>(model)) {}
 Rod::~Rod() = default;
@@ -15,61 +26,79 @@ int Rod::elements() const { return impl_->model.elements; }
 
 void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   Impl& m = *impl_;
-  for (int i = 0; i < m.count; ++i) {
-    NodeState& n = m.node[i];
+  for (int i = 0; i < m.w.count; ++i) {
+    NodeState& n = m.w.node[i];
     n = NodeState{ToSmall(nodes[i].p), Normalized(ToSmall(nodes[i].q)), V3{}, V3{}};
-    if (i > 0 && Dot(n.q, m.node[i - 1].q) < 0) n.q = {-n.q.w, -n.q.x, -n.q.y, -n.q.z};
-    m.rate[i] = m.algorithm[i] = NodeRates{};
+    if (i > 0 && Dot(n.q, m.w.node[i - 1].q) < 0) n.q = {-n.q.w, -n.q.x, -n.q.y, -n.q.z};
+    m.w.rate[i] = m.w.algorithm[i] = NodeRates<double>{};
   }
-  m.trial = m.node;
+  m.w.trial = m.w.node;
   m.PrepareStatics();
-  m.EvaluateForces();
-  for (int e = 0; e < m.model.elements; ++e)
-    m.shear[e] = {m.shear1.Rest(m.chain.gamma(e).x - m.law.gamma0.x),
-                  m.shear2.Rest(m.chain.gamma(e).y - m.law.gamma0.y)};
+  EvaluateForces(&m.w);
+  m.TakeIterate(true);
 }
 
 void Rod::AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
                          const Eigen::Vector3d& omega) {
-  Impl& m = *impl_;
-  for (NodeState& n : m.node) {
+  for (NodeState& n : impl_->w.node) {
     n.v += ToSmall(v + omega.cross(ToEigen(n.r) - p));
     n.omega += ToSmall(ToEigen(n.q).conjugate() * omega);
   }
-  m.trial = m.node;
 }
 
-V3 Rod::position(int i) const { return impl_->node[i].r; }
-V3 Rod::velocity(int i) const { return impl_->node[i].v; }
-Pose Rod::pose(int i) const { return {ToEigen(impl_->node[i].r), ToEigen(impl_->node[i].q)}; }
-Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->node[i].omega); }
-Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->rate[i].v); }
-Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->chain.force(e)); }
-Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->chain.moment(e)); }
-Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->chain.kappa(e)); }
+SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* load) {
+  Impl& m = *impl_;
+  m.w.law = m.LawOfStep(dt);
+  for (int e = 0; e < m.model.elements; ++e) m.w.chain.SetOffset(e, 0, m.Offset(e));
+  m.HoldEnds(a, b);
+  SolveReport report;
+  const bool active = true;
+  SolveStep(StepCoefficients(dt), m.first_free(), m.last_free(), &m.model.length, &load, &active,
+            &m.w, &report);
+  if (!report.converged) return report;
+  m.TakeIterate(false);
+  for (NodeState& n : m.w.trial) n.q = Normalized(n.q);  // rounding would add up over many steps
+  std::swap(m.w.node, m.w.trial);
+  std::swap(m.w.rate, m.w.trial_rate);
+  std::swap(m.w.algorithm, m.w.trial_algorithm);
+  return report;
+}
 
-// `rhs` of a held end keeps minus what is missing to its balance: the clamp supplies it.
+void Rod::Predict(double dt, const Motion& a, const Motion& b,
+                  std::vector<Eigen::Vector3d>* positions) const {
+  const Impl& m = *impl_;
+  positions->resize(m.w.count);
+  for (int i = 0; i < m.w.count; ++i) (*positions)[i] = ToEigen(m.w.node[i].r + dt * m.w.node[i].v);
+  if (m.model.held_a) positions->front() = a.X.p;
+  if (m.model.held_b) positions->back() = b.X.p;
+}
+
+V3 Rod::position(int i) const { return impl_->w.node[i].r; }
+V3 Rod::velocity(int i) const { return impl_->w.node[i].v; }
+Pose Rod::pose(int i) const { return {ToEigen(impl_->w.node[i].r), ToEigen(impl_->w.node[i].q)}; }
+Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->w.node[i].omega); }
+Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->w.rate[i].v); }
+Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->stress[e].n); }
+Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->stress[e].m); }
+Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->stress[e].kappa); }
+
 Wrench Rod::reaction_a() const {
-  const Vec6<Scalar>& b = impl_->rhs.front();
-  const Eigen::Vector3d force(-b[0], -b[1], -b[2]), moment(-b[3], -b[4], -b[5]);
-  return {force, ToEigen(impl_->node.front().q) * moment};
+  return ClampWrench(impl_->missing_a, ToEigen(impl_->w.node.front().q));
 }
 Wrench Rod::reaction_b() const {
-  const Vec6<Scalar>& b = impl_->rhs.back();
-  const Eigen::Vector3d force(-b[0], -b[1], -b[2]), moment(-b[3], -b[4], -b[5]);
-  return {force, ToEigen(impl_->node.back().q) * moment};
+  return ClampWrench(impl_->missing_b, ToEigen(impl_->w.node.back().q));
 }
 
 double Rod::kinetic_energy() const {
   double energy = 0;
-  for (int i = 0; i < impl_->count; ++i) {
-    const NodeState& n = impl_->node[i];
-    energy +=
-        0.5 * (impl_->mass[i] * Dot(n.v, n.v) + Dot(n.omega, Scale(impl_->inertia[i], n.omega)));
+  for (int i = 0; i < impl_->w.count; ++i) {
+    const NodeState& n = impl_->w.node[i];
+    energy += 0.5 * (impl_->w.mass[i] * Dot(n.v, n.v) +
+                     Dot(n.omega, Scale(impl_->w.inertia[i], n.omega)));
   }
   return energy;
 }
 double Rod::elastic_energy() const { return impl_->StrainEnergy(); }
-double Rod::gravity_energy() const { return impl_->GravityEnergy(impl_->node); }
+double Rod::gravity_energy() const { return impl_->GravityEnergy(impl_->w.node); }
 
 }  // namespace cosserat_cable::rod

@@ -1,70 +1,48 @@
-// What statics and dynamics of a rod share: its state, and the sweep over its elements.
+// What a rod is made of: its model as the kernels need it, and its state.
 #pragma once
 
 #include <array>
 #include <vector>
 
-#include "block_tridiagonal.h"
 #include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/rod.h"
-#include "element_chain.h"
 #include "shear_series.h"
-#include "step_kernels.h"
+#include "step_workspace.h"
 
 namespace cosserat_cable::rod {
 
-using Scalar = double;
-using V3 = Vec3<Scalar>;
-using NodeState = Node<Scalar>;
+using V3 = Vec3<double>;
+using NodeState = Node<double>;
 
-struct Rod::Impl : public Centreline {
+struct Rod::Impl {
   explicit Impl(const RodModel& m);
 
-  // ---- constants
   RodModel model;
-  int count;                 // of nodes
-  double h;                  // element length [m]
-  std::vector<double> mass;  // lumped at the nodes [kg]
-  std::vector<V3> inertia;   // about the section's axes [kg m^2]
-  V3 gravity;
-  ElementLaw<Scalar> law;  // of the step or of statics, whichever was prepared last
+  double h;  // element length [m]
   ShearSeries shear1, shear2;
+  StepWorkspace<double> w;  // `node`, `rate` and `algorithm` are the state
 
-  // ---- state at the last accepted instant
-  std::vector<NodeState> node;
-  std::vector<NodeRates> rate;       // true accelerations
-  std::vector<NodeRates> algorithm;  // generalised-alpha's own
+  // The rest of the state, by element.
   using ShearHistory = std::array<ShearSeries::History, 2>;
   std::vector<ShearHistory> shear;
-
-  // ---- the iterate, and the stresses that belong to it
-  std::vector<NodeState> trial;
-  ElementChain chain;
-  BlockTridiagonal<Scalar> system;
-  std::vector<Vec6<Scalar>> rhs;        // minus the residual, then the correction
-  std::vector<Vec6<Scalar>> increment;  // of the step: displacement, rotation vector
-  std::vector<NodeRates> trial_rate, trial_algorithm;
+  std::vector<ElementStress> stress;
+  Vec6<double> missing_a, missing_b;  // what the end nodes lack to balance: the clamps supply it
 
   int first_free() const { return model.held_a ? 1 : 0; }
-  int last_free() const { return model.held_b ? count - 2 : count - 1; }
-
-  // Centreline, of the iterate.
-  int elements() const override { return model.elements; }
-  V3 position(int i) const override { return trial[i].r; }
-  V3 velocity(int i) const override { return trial[i].v; }
+  int last_free() const { return model.held_b ? w.count - 2 : w.count - 1; }
 
   void PrepareStatics();
-  void PrepareStep(double dt);
+  /// The section law over a step of `dt` [s], without the elements' offsets.
+  ElementLaw<double> LawOfStep(double dt);
+  V3 Offset(int element) const;
+  /// The end nodes of the next iterate, where they are held.
+  void HoldEnds(const Motion& a, const Motion& b);
 
-  /// Strains and stresses of the iterate; internal forces and gravity into `rhs`.
-  void EvaluateForces();
-  /// Adds what a load exerts to `rhs` and, where wanted, its derivative to `system`.
-  /// `rate_factor`: d(velocity)/d(position) of the step [1/s].
-  void AddLoad(const Load& load, bool tangent, double rate_factor);
-  /// Sets `system` to the elements' tangent with moduli C + rate_factor V.
-  void AssembleTangent(double rate_factor);
-  /// Largest correction in `rhs`, relative to the length and in rad.
-  double CorrectionNorm() const;
+  /// Takes over what lane `lane` of a workspace found: stresses, end forces and internal variables,
+  /// at rest or at the end of the step that LawOfStep began.
+  template <class T>
+  void TakeStresses(const StepWorkspace<T>& from, int lane, bool at_rest);
+  void TakeIterate(bool at_rest) { TakeStresses(w, 0, at_rest); }
 
   double StrainEnergy() const;
   double GravityEnergy(const std::vector<NodeState>& nodes) const;

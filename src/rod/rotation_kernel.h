@@ -47,20 +47,43 @@ inline ArcTangentSeries<Lanes> EvaluateArcTangent(const Lanes& x2) {
   return series;
 }
 
+// Below this (angle/2)^2 the series of Exp, cut after y^5, are exact to 1e-16.
+constexpr double kExpSeriesBelow = 0.05;
+
+template <class T>
+Quat<T> ExpSeries(const Vec3<T>& phi, const T& y) {
+  const T c =
+      1.0 -
+      1.0 / 2 * y *
+          (1.0 - 1.0 / 12 * y * (1.0 - 1.0 / 30 * y * (1.0 - 1.0 / 56 * y * (1.0 - 1.0 / 90 * y))));
+  const T s =
+      0.5 *
+      (1.0 - 1.0 / 6 * y *
+                 (1.0 - 1.0 / 20 * y *
+                            (1.0 - 1.0 / 42 * y * (1.0 - 1.0 / 72 * y * (1.0 - 1.0 / 110 * y)))));
+  return {c, s * phi.x, s * phi.y, s * phi.z};
+}
+
 /// Quaternion of the rotation vector `phi` [rad].
 inline Quat<double> Exp(const Vec3<double>& phi) {
   const double y = 0.25 * Dot(phi, phi);  // (angle/2)^2
-  double c, s;                            // cos(angle/2), sin(angle/2)/angle
-  constexpr double kSeriesBelow = 0.05;
-  if (y < kSeriesBelow) {  // truncation y^6/12! < 1e-16
-    c = 1 - y / 2 * (1 - y / 12 * (1 - y / 30 * (1 - y / 56 * (1 - y / 90))));
-    s = 0.5 * (1 - y / 6 * (1 - y / 20 * (1 - y / 42 * (1 - y / 72 * (1 - y / 110)))));
-  } else {
-    const double half = std::sqrt(y);
-    c = std::cos(half);
-    s = 0.5 * std::sin(half) / half;
+  if (y < kExpSeriesBelow) return ExpSeries(phi, y);
+  const double half = std::sqrt(y), s = 0.5 * std::sin(half) / half;
+  return {std::cos(half), s * phi.x, s * phi.y, s * phi.z};
+}
+
+inline Quat<Lanes> Exp(const Vec3<Lanes>& phi) {
+  const Lanes y = 0.25 * Dot(phi, phi);
+  Quat<Lanes> q = ExpSeries(phi, y);
+  for (int lane = 0; lane < Lanes::kCount; ++lane) {
+    if (y[lane] < kExpSeriesBelow) continue;
+    const Quat<double> one = Exp(Vec3<double>{phi.x[lane], phi.y[lane], phi.z[lane]});
+    q.w.v[lane] = one.w;
+    q.x.v[lane] = one.x;
+    q.y.v[lane] = one.y;
+    q.z.v[lane] = one.z;
   }
-  return {c, s * phi.x, s * phi.y, s * phi.z};
+  return q;
 }
 
 }  // namespace cosserat_cable::rod

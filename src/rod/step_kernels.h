@@ -1,16 +1,9 @@
-// The loops over nodes of one time step.
+// The loops over nodes and elements of statics and of a time step, for one rod or for four.
 #pragma once
 
-#include "block_tridiagonal.h"
-#include "element.h"
+#include "step_workspace.h"
 
 namespace cosserat_cable::rod {
-
-/// Time derivatives of a node's velocity [m/s^2] and of its angular velocity in the section's frame
-/// [rad/s^2].
-struct NodeRates {
-  Vec3<double> v, omega;
-};
 
 /// Generalised-alpha as linear functions of the increment over a step of `dt` [s].
 struct StepCoefficients {
@@ -25,24 +18,36 @@ struct StepCoefficients {
   double new_algorithm, old_algorithm, old_rate;  ///< vdot_1 from a_1, a_0, vdot_0
 };
 
-/// One node's part in a step: where it was, and where the increment takes it.
-struct NodeStep {
-  const Node<double>* from;
-  const NodeRates *algorithm, *rate;
-  const Vec6<double>* increment;
-  Node<double>* to;
-  NodeRates *to_algorithm, *to_rate;
+/// Largest entries of a correction, in m and rad, and a sum that is finite only if all are.
+template <class T>
+struct CorrectionSize {
+  T translation, rotation, sum;
 };
 
-/// The states of nodes `first`..`last` that belong to their increments; the members of `step` point
-/// to node 0.
-void UpdateNodes(const StepCoefficients& c, const NodeStep& step, int first, int last);
+/// Declares each kernel for one rod and for four: a function template could not be compiled for
+/// several instruction sets.
+#define COSSERAT_CABLE_DECLARE_KERNELS(T)                                                       \
+  /** Gravity and the internal forces of the iterate into `rhs`. */                             \
+  void EvaluateForces(StepWorkspace<T>* w);                                                     \
+  /** Elements' tangent with moduli C + rate_factor V into `system`; rate_factor in 1/s. */     \
+  void AssembleTangent(double rate_factor, StepWorkspace<T>* w);                                \
+  /** First increment of nodes `first`..`last`: constant velocity. */                           \
+  void Predict(const StepCoefficients& c, int first, int last, StepWorkspace<T>* w);            \
+  /** The iterate that belongs to the increments. */                                            \
+  void UpdateNodes(const StepCoefficients& c, int first, int last, StepWorkspace<T>* w);        \
+  /** Inertia forces and gyroscopic moments, all nodes. */                                      \
+  void SubtractInertia(StepWorkspace<T>* w);                                                    \
+  void AddInertia(const StepCoefficients& c, int first, int last, StepWorkspace<T>* w);         \
+  /** Smallest pivot, see BlockTridiagonal; not by value: how lanes are returned depends on the \
+      instruction set. */                                                                       \
+  void Factorise(int first, int last, StepWorkspace<T>* w, T* smallest);                        \
+  void Solve(StepWorkspace<T>* w);                                                              \
+  CorrectionSize<T> MeasureCorrection(int first, int last, const StepWorkspace<T>& w);          \
+  /** Adds the correction in `rhs` to the increments. */                                        \
+  void Correct(int first, int last, StepWorkspace<T>* w);
 
-/// Subtracts inertia forces and gyroscopic moments from `rhs`, all `count` nodes.
-void SubtractInertia(const double* mass, const Vec3<double>* inertia, const Node<double>* nodes,
-                     const NodeRates* rates, int count, Vec6<double>* rhs);
-
-double Factorise(BlockTridiagonal<double>* system, int first, int last);
-void Solve(const BlockTridiagonal<double>& system, Vec6<double>* x);
+COSSERAT_CABLE_DECLARE_KERNELS(double)
+COSSERAT_CABLE_DECLARE_KERNELS(Lanes)
+#undef COSSERAT_CABLE_DECLARE_KERNELS
 
 }  // namespace cosserat_cable::rod

@@ -75,6 +75,7 @@ class CableSimulation {
   CableReport Report();
 
  private:
+  friend class CableFleet;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -88,6 +88,7 @@ class Rod : public Centreline {
   double gravity_energy() const;  ///< [J], zero at the world's origin
 
  private:
+  friend class RodBatch;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

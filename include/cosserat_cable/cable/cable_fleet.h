@@ -1,0 +1,31 @@
+// The cables of a vehicle, stepped side by side.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cosserat_cable/cable/cable_simulation.h"
+
+namespace cosserat_cable {
+
+/// Takes the same steps as CableSimulation::Step, several cables at a time: those with equal
+/// numbers of elements go in groups of four through the lanes of one kernel. What a cable does does
+/// not depend on the others, to the last bit.
+class CableFleet {
+ public:
+  /// The simulations outlive this, and are stepped through it only.
+  explicit CableFleet(const std::vector<CableSimulation*>& cables);
+  ~CableFleet();
+  CableFleet(CableFleet&&) noexcept;
+  CableFleet& operator=(CableFleet&&) noexcept;
+
+  /// Advances cable i by `dt` [s] to `then[i]`; a null pointer leaves it where it is.
+  /// @return an outcome for each cable, in their order
+  std::vector<StepOutcome> Step(double dt, const std::vector<const Surroundings*>& then);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace cosserat_cable

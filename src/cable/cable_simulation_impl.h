@@ -1,0 +1,56 @@
+// What a cable simulation is made of; shared by those that step one cable and several.
+#pragma once
+
+#include <vector>
+
+#include "contact_set.h"
+#include "cosserat_cable/cable/cable_simulation.h"
+#include "cosserat_cable/math/small_eigen.h"
+#include "cosserat_cable/rod/rod.h"
+#include "nearest_body.h"
+
+namespace cosserat_cable {
+
+struct CableSimulation::Impl {
+  Impl(const CableModel& m, const std::vector<const Body*>& bodies, const Eigen::Vector3d& gravity,
+       double clearance_reach);
+
+  void UpdateNodes() {
+    for (int i = 0; i <= model.elements; ++i) nodes[i] = rod.pose(i);
+  }
+  /// Present positions into the scratch array.
+  void TakePositions() {
+    for (int i = 0; i <= model.elements; ++i) positions[i] = ToEigen(rod.position(i));
+  }
+  const rod::Load* load() const { return contact.empty() ? nullptr : &contact; }
+
+  /// Looks for contact where the cable is about to be.
+  void SearchContact(double dt, const Surroundings& then) {
+    rod.Predict(dt, then.a, then.b, &positions);
+    contact.Search(positions, then.obstacles);
+  }
+  /// A whole step has converged.
+  void Accept(const Surroundings& then) {
+    contact.Accept();
+    now = then;
+    UpdateNodes();
+  }
+  /// The step in halves, and halves of halves, after it did not converge as a whole. A step that
+  /// fails leaves the state as it was.
+  StepOutcome StepInParts(double dt, const Surroundings& then, int iterations_so_far);
+
+  CableModel model;
+  Eigen::Vector3d gravity_W;
+  rod::Rod rod;
+  ContactSet contact;
+  NearestBody nearest;
+  Surroundings now;
+  std::vector<Pose> nodes;
+  std::vector<Eigen::Vector3d> positions;  // scratch: where contact is searched
+};
+
+/// The outcome of a step to surroundings that are not finite.
+StepOutcome RefuseNonFinite();
+bool IsFinite(const Surroundings& surroundings);
+
+}  // namespace cosserat_cable

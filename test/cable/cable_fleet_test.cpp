@@ -1,0 +1,106 @@
+#include "cosserat_cable/cable/cable_fleet.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace cosserat_cable {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDt = 1e-3;
+const Vector3d kGravity(0, 0, -9.81);
+
+/// Hoses of several lengths hanging in a U over a floor that the longest touches.
+CableModel Hose(int k, int elements) {
+  CableModel m;
+  m.length = 0.36 + 0.02 * k;
+  m.elements = elements;
+  m.diameter = 0.01;
+  m.mass_per_length = 0.12;
+  m.EI1 = m.EI2 = 0.03 + 0.01 * k;
+  m.GJ = 0.028;
+  m.EA = 16 * m.EI1 / 1e-4;
+  m.GA1 = m.GA2 = m.EA / 3;
+  m.eta_EI1 = m.eta_EI2 = 1e-4;
+  m.eta_GJ = 5e-5;
+  m.eta_EA = 20;
+  m.eta_GA1 = m.eta_GA2 = 0.1;
+  m.apex_s = 0.5 * m.length;
+  return m;
+}
+
+Surroundings At(double t) {
+  Surroundings s;
+  s.a.X.q = Eigen::Quaterniond(0, 1, 0, 0);
+  s.b.X.p = {0, 0.2, 0.01 * std::sin(100 * t)};
+  s.b.v.z() = 1.0 * std::cos(100 * t);
+  s.b.a.z() = -100.0 * std::sin(100 * t);
+  s.obstacles.resize(1);
+  return s;
+}
+
+const Body& Floor() {
+  static const Body floor({Shape{{{0, 0.1, -0.24}, {1, 0, 0, 0}}, Box{{1, 1, 0.1}}}});
+  return floor;
+}
+
+std::vector<CableSimulation> Settled(const std::vector<int>& elements) {
+  std::vector<CableSimulation> cables;
+  for (std::size_t k = 0; k < elements.size(); ++k) {
+    cables.emplace_back(Hose(static_cast<int>(k), elements[k]), std::vector<const Body*>{&Floor()},
+                        kGravity);
+    EXPECT_TRUE(cables.back().Settle(At(0)).ok);
+  }
+  return cables;
+}
+
+std::vector<CableSimulation*> Pointers(std::vector<CableSimulation>& cables) {
+  std::vector<CableSimulation*> pointers;
+  for (CableSimulation& cable : cables) pointers.push_back(&cable);
+  return pointers;
+}
+
+TEST(CableFleetTest, StepsAsOneByOne) {
+  // m; rounding only. Contact is a discontinuity of curvature, not of force, and amplifies little.
+  constexpr double kTolerance = 1e-8;
+  const std::vector<int> elements = {40, 40, 30, 40, 40, 40, 25};  // groups of 4, 1, 1 and 1
+  std::vector<CableSimulation> together = Settled(elements), alone = Settled(elements);
+  CableFleet fleet(Pointers(together));
+  double force = 0;
+  for (int s = 1; s <= 300; ++s) {
+    const Surroundings then = At(s * kDt);
+    for (const StepOutcome& outcome :
+         fleet.Step(kDt, std::vector<const Surroundings*>(elements.size(), &then)))
+      ASSERT_TRUE(outcome.ok);
+    for (CableSimulation& cable : alone) ASSERT_TRUE(cable.Step(kDt, then).ok);
+    force += together.back().Report().contact_force;
+  }
+  EXPECT_GT(force, 0);  // the floor took part
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    EXPECT_LT((together[k].Report().apex - alone[k].Report().apex).norm(), kTolerance) << k;
+}
+
+TEST(CableFleetTest, ACableThatFailsOrRestsLeavesTheOthersAlone) {
+  const std::vector<int> elements(4, 40);
+  std::vector<CableSimulation> all = Settled(elements), some = Settled(elements);
+  CableFleet fleet(Pointers(all)), other(Pointers(some));
+  Surroundings bad = At(kDt);
+  bad.a.X.p.y() = std::numeric_limits<double>::quiet_NaN();
+  const Vector3d before = some[1].Report().apex;
+  for (int s = 1; s <= 50; ++s) {
+    const Surroundings then = At(s * kDt);
+    fleet.Step(kDt, {&then, &then, &then, &then});
+    const auto outcomes = other.Step(kDt, {&then, &bad, nullptr, &then});
+    EXPECT_FALSE(outcomes[1].ok);
+    EXPECT_TRUE(outcomes[0].ok);
+  }
+  EXPECT_EQ(all[0].Report().apex, some[0].Report().apex);
+  EXPECT_EQ(all[3].Report().apex, some[3].Report().apex);
+  EXPECT_EQ(some[1].Report().apex, before);
+}
+
+}  // namespace
+}  // namespace cosserat_cable

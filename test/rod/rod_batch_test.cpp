@@ -1,0 +1,113 @@
+#include "cosserat_cable/rod/rod_batch.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "rod/rod_cases.h"
+
+namespace cosserat_cable::rod {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr double kDt = 1e-3;
+
+/// Four different arches; the second is so soft that it needs more iterations than the others.
+RodModel Model(int k) {
+  const double EI[] = {0.008, 0.0005, 0.02, 0.012};
+  const double eta[] = {1e-4, 1e-7, 2e-4, 1.2e-5};
+  return RoundCable(0.2 + 0.02 * k, 0.008, 0.15, EI[k], 0.75 * EI[k], eta[k], eta[k] / 2, 22);
+}
+
+const Pose kA;
+const Pose kB{{0.1, 0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Vector3d::UnitY()))};
+
+Rod Settled(int k) {
+  const RodModel model = Model(k);
+  Rod rod(model);
+  rod.SetConfiguration(BowedShape(kA, kB, model.length, model.elements, model.gravity));
+  EXPECT_TRUE(rod.Equilibrate().converged);
+  return rod;
+}
+
+Motion Shaken(const Pose& clamp, int k, double t) {
+  const double w = 2 * M_PI * (10 + 5 * k), amplitude = 2e-3;
+  const Vector3d axis = Vector3d(1, 0.3 * k, -0.2).normalized();
+  Motion motion = Motion::Resting(clamp);
+  motion.X.p += amplitude * std::sin(w * t) * axis;
+  motion.v = amplitude * w * std::cos(w * t) * axis;
+  motion.a = -amplitude * w * w * std::sin(w * t) * axis;
+  return motion;
+}
+
+/// Apex positions of the chosen arches, stepped together in this order.
+std::vector<Vector3d> StepTogether(const std::vector<int>& chosen, int steps) {
+  std::vector<Rod> rods;
+  for (int k : chosen) rods.push_back(Settled(k));
+  std::vector<Rod*> pointers;
+  for (Rod& rod : rods) pointers.push_back(&rod);
+  RodBatch batch(pointers);
+  for (int s = 1; s <= steps; ++s) {
+    std::vector<Motion> a, b;
+    for (int k : chosen) {
+      a.push_back(Shaken(kA, k, s * kDt));
+      b.push_back(Shaken(kB, k, s * kDt));
+    }
+    std::vector<RodDrive> drives;
+    for (std::size_t i = 0; i < chosen.size(); ++i) drives.push_back({&a[i], &b[i], nullptr});
+    for (const SolveReport& report : batch.Step(kDt, drives)) EXPECT_TRUE(report.converged);
+  }
+  std::vector<Vector3d> apex;
+  for (Rod& rod : rods) apex.push_back(rod.pose(11).p);
+  return apex;
+}
+
+TEST(RodBatchTest, MatchesSingleSteps) {
+  constexpr double kTolerance = 1e-9;  // m: the promised 1e-6 mm; Newton leaves 2e-9 of the length
+  const std::vector<Vector3d> together = StepTogether({0, 1, 2, 3}, 300);
+  for (int k = 0; k < 4; ++k) {
+    Rod rod = Settled(k);
+    for (int s = 1; s <= 300; ++s)
+      ASSERT_TRUE(rod.Step(kDt, Shaken(kA, k, s * kDt), Shaken(kB, k, s * kDt)).converged);
+    EXPECT_LT((rod.pose(11).p - together[k]).norm(), kTolerance) << k;
+  }
+}
+
+TEST(RodBatchTest, ALaneDoesNotDependOnItsNeighbours) {
+  const std::vector<Vector3d> all = StepTogether({0, 1, 2, 3}, 200);
+  EXPECT_EQ(StepTogether({3, 1}, 200)[0], all[3]);
+  EXPECT_EQ(StepTogether({0}, 200)[0], all[0]);
+  EXPECT_EQ(StepTogether({2, 2, 0}, 200)[2], all[0]);
+}
+
+TEST(RodBatchTest, AFailureStaysInItsLane) {
+  const std::vector<Vector3d> expected = StepTogether({0, 3}, 1);
+  Rod good = Settled(0), bad = Settled(1), other = Settled(3);
+  const Vector3d before = bad.pose(11).p;
+  RodBatch batch({&good, &bad, &other});
+  const Motion a0 = Shaken(kA, 0, kDt), b0 = Shaken(kB, 0, kDt);
+  const Motion a3 = Shaken(kA, 3, kDt), b3 = Shaken(kB, 3, kDt);
+  Motion nan = a0;
+  nan.X.p.x() = std::numeric_limits<double>::quiet_NaN();
+  const auto reports =
+      batch.Step(kDt, {{&a0, &b0, nullptr}, {&nan, &b0, nullptr}, {&a3, &b3, nullptr}});
+  EXPECT_TRUE(reports[0].converged);
+  EXPECT_FALSE(reports[1].converged);
+  EXPECT_TRUE(reports[2].converged);
+  EXPECT_EQ(good.pose(11).p, expected[0]);
+  EXPECT_EQ(other.pose(11).p, expected[1]);
+  EXPECT_EQ(bad.pose(11).p, before);
+}
+
+TEST(RodBatchTest, RefusesRodsThatDoNotFitTogether) {
+  RodModel model = Model(0);
+  model.elements = 30;
+  Rod a = Settled(0), b(model);
+  EXPECT_THROW(RodBatch({&a, &b}), std::invalid_argument);
+  EXPECT_THROW(RodBatch({}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace cosserat_cable::rod
