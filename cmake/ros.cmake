@@ -6,8 +6,6 @@ find_package(catkin REQUIRED COMPONENTS
   message_generation
   rosbag_storage
   roscpp
-  roslib
-  rosgraph_msgs
   sensor_msgs
   std_msgs
   tf2
@@ -31,7 +29,7 @@ set(rooms
 catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ${rooms}
-  CATKIN_DEPENDS diagnostic_msgs geometry_msgs message_runtime rosbag_storage roscpp roslib
+  CATKIN_DEPENDS diagnostic_msgs geometry_msgs message_runtime rosbag_storage roscpp
     sensor_msgs std_msgs tf2 tf2_msgs visualization_msgs
   DEPENDS EIGEN3
 )
@@ -80,6 +78,11 @@ foreach(folder launch config urdf)
     install(DIRECTORY ${folder} DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
   endif()
 endforeach()
+
+# The tools in Python find their shared code beside them.
+catkin_install_python(PROGRAMS scripts/travel_to_bag scripts/plot_apex
+  DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+install(DIRECTORY scripts/pylib DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 
 if(CATKIN_ENABLE_TESTING)
   find_package(GTest REQUIRED)

@@ -8,15 +8,22 @@
 //     </test>
 //
 // It listens to cables/CABLE/apex until the window is over or nothing comes for `silence` seconds
-// (default 5), or reads the bag in `bag`. Several windows: a list `checks` of maps with the same
-// keys. All bounds: apex_gate.h; `comparison` names a bag for max_rms_difference.
+// (default 5), or reads the bag in `bag`. Several windows or cables at once (rostest runs one test
+// after another, and a recording is played once): a list `checks` of maps with the same keys; what
+// stands beside the list holds for each of its entries that does not say otherwise. All bounds:
+// apex_gate.h; `comparison` names a bag for max_rms_difference.
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
 #include <chrono>
+#include <iostream>
+#include <map>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cosserat_cable/ros/apex_gate.h"
 
@@ -34,11 +41,17 @@ double ToNumber(XmlRpc::XmlRpcValue value, const std::string& key, Problems* pro
   return 0;
 }
 
-// Reads the bounds out of a map of parameters; keys that are none are problems unless `others` has
-// them.
-ApexBounds ReadBounds(XmlRpc::XmlRpcValue map, const std::set<std::string>& others,
-                      Problems* problems) {
+struct Check {
+  std::string cable;
   ApexBounds bounds;
+};
+
+using Telemetry = std::map<std::string, std::vector<ApexTelemetry>>;  // by cable
+
+// Puts a map of parameters over `check`; keys that are none are problems unless `others` has them.
+Check ReadCheck(XmlRpc::XmlRpcValue map, Check check, const std::set<std::string>& others,
+                Problems* problems) {
+  ApexBounds& bounds = check.bounds;
   std::map<std::string, double*> numbers = {{"start", &bounds.start},
                                             {"end", &bounds.end},
                                             {"peak_to_peak_min", &bounds.peak_to_peak_min},
@@ -49,13 +62,15 @@ ApexBounds ReadBounds(XmlRpc::XmlRpcValue map, const std::set<std::string>& othe
                                             {"max_contact_force", &bounds.max_contact_force},
                                             {"max_interval", &bounds.max_interval},
                                             {"max_rms_difference", &bounds.max_rms_difference}};
-  std::vector<std::string> known = {"name", "axis"};
+  std::vector<std::string> known = {"cable", "name", "axis"};
   for (const auto& [key, number] : numbers) known.push_back(key);
   for (auto& [key, value] : map) {
     if (numbers.count(key) > 0) {
       *numbers[key] = ToNumber(value, key, problems);
     } else if (key == "name" && value.getType() == XmlRpc::XmlRpcValue::TypeString) {
       bounds.name = static_cast<std::string>(value);
+    } else if (key == "cable" && value.getType() == XmlRpc::XmlRpcValue::TypeString) {
+      check.cable = static_cast<std::string>(value);
     } else if (key == "axis" && value.getType() == XmlRpc::XmlRpcValue::TypeString) {
       const auto axis = static_cast<std::string>(value);
       if (axis != "x" && axis != "y" && axis != "z" && axis != "principal") {
@@ -69,69 +84,94 @@ ApexBounds ReadBounds(XmlRpc::XmlRpcValue map, const std::set<std::string>& othe
                     "unknown" + (nearest.empty() ? "" : ", did you mean '" + nearest + "'?"));
     }
   }
-  return bounds;
+  return check;
 }
 
-std::vector<ApexTelemetry> Listen(const std::string& cable, double duration, double silence) {
+// Until each cable's last window is over.
+Telemetry Listen(const std::vector<Check>& checks, double silence) {
   using Clock = std::chrono::steady_clock;
-  std::vector<ApexTelemetry> messages;
+  Telemetry telemetry;
+  std::map<std::string, double> durations;
+  for (const Check& check : checks) {
+    double& duration = durations[check.cable];
+    duration = std::max(duration, check.bounds.end);
+  }
   Clock::time_point last = Clock::now();
   ros::NodeHandle node;
-  const auto subscriber = node.subscribe<ApexTelemetry>(
-      "cables/" + cable + "/apex", kQueue, [&](const ApexTelemetryConstPtr& message) {
-        // A recording that starts over is another run.
-        if (messages.empty() || message->header.stamp > messages.back().header.stamp) {
-          messages.push_back(*message);
-        }
-        last = Clock::now();
-      });
-  while (ros::ok()) {
+  std::vector<ros::Subscriber> subscribers;
+  for (const auto& [cable, duration] : durations) {
+    std::vector<ApexTelemetry>& messages = telemetry[cable];
+    const boost::function<void(const ApexTelemetryConstPtr&)> take =
+        [&messages, &last](const ApexTelemetryConstPtr& message) {
+          // A recording that starts over is another run.
+          if (messages.empty() || message->header.stamp > messages.back().header.stamp) {
+            messages.push_back(*message);
+          }
+          last = Clock::now();
+        };
+    subscribers.push_back(node.subscribe<ApexTelemetry>("cables/" + cable + "/apex", kQueue, take));
+  }
+  const auto over = [&](const auto& entry) {
+    const std::vector<ApexTelemetry>& messages = telemetry.at(entry.first);
+    return !messages.empty() &&
+           (messages.back().header.stamp - messages.front().header.stamp).toSec() > entry.second;
+  };
+  const auto any = [&] {
+    return std::any_of(telemetry.begin(), telemetry.end(),
+                       [](const auto& entry) { return !entry.second.empty(); });
+  };
+  while (ros::ok() && !std::all_of(durations.begin(), durations.end(), over)) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.05));
     const double quiet = std::chrono::duration<double>(Clock::now() - last).count();
-    if (quiet > (messages.empty() ? kFirstMessageTimeout : silence)) break;
-    if (!messages.empty() &&
-        (messages.back().header.stamp - messages.front().header.stamp).toSec() > duration) {
-      break;
-    }
+    if (quiet > (any() ? silence : kFirstMessageTimeout)) break;
   }
-  return messages;
+  return telemetry;
 }
 
 TEST(ApexCheck, BoundsHold) {
   ros::NodeHandle parameters("~");
   Problems problems;
-  const std::set<std::string> others = {"cable", "bag", "comparison", "checks", "silence"};
   XmlRpc::XmlRpcValue all;
   ASSERT_TRUE(parameters.getParam(parameters.getNamespace(), all)) << "no parameters are set";
-  std::string cable;
-  ASSERT_TRUE(parameters.getParam("cable", cable)) << "parameter ~cable is missing";
 
-  std::vector<ApexBounds> checks;
+  const Check common = ReadCheck(all, {}, {"bag", "comparison", "checks", "silence"}, &problems);
+  std::vector<Check> checks;
   XmlRpc::XmlRpcValue list;
   if (parameters.getParam("checks", list)) {
     ASSERT_EQ(list.getType(), XmlRpc::XmlRpcValue::TypeArray) << "~checks is no list";
-    for (int i = 0; i < list.size(); ++i) checks.push_back(ReadBounds(list[i], {}, &problems));
-    ReadBounds(all, others, &problems);
+    for (int i = 0; i < list.size(); ++i) {
+      ASSERT_EQ(list[i].getType(), XmlRpc::XmlRpcValue::TypeStruct)
+          << "~checks has no map at " << i;
+      checks.push_back(ReadCheck(list[i], common, {}, &problems));
+    }
   } else {
-    checks.push_back(ReadBounds(all, others, &problems));
+    checks.push_back(common);
   }
-  double duration = 0;
-  for (const ApexBounds& bounds : checks) duration = std::max(duration, bounds.end);
+  ASSERT_FALSE(checks.empty()) << "~checks is empty";
+  for (const Check& check : checks) {
+    if (check.cable.empty()) problems.Add("", 0, "cable", "missing: the name of a cable");
+  }
 
   const auto comparison_path = parameters.param<std::string>("comparison", "");
   const auto bag = parameters.param<std::string>("bag", "");
-  std::vector<ApexTelemetry> comparison;
-  if (!comparison_path.empty()) {
-    comparison = ReadApexTelemetry(comparison_path, cable, &problems);
+  Telemetry comparison, telemetry;
+  for (const Check& check : checks) {
+    for (const auto& [path, messages] :
+         {std::pair(comparison_path, &comparison), std::pair(bag, &telemetry)}) {
+      if (path.empty() || messages->count(check.cable) > 0) continue;
+      (*messages)[check.cable] = ReadApexTelemetry(path, check.cable, &problems);
+    }
   }
-  std::vector<ApexTelemetry> messages;
-  if (!bag.empty()) messages = ReadApexTelemetry(bag, cable, &problems);
   ASSERT_TRUE(problems.empty()) << problems.ToString();
-  if (bag.empty()) messages = Listen(cable, duration, parameters.param("silence", 5.0));
-  ASSERT_FALSE(messages.empty()) << "no telemetry of cable '" << cable << "'";
+  if (bag.empty()) telemetry = Listen(checks, parameters.param("silence", 5.0));
 
-  for (const ApexBounds& bounds : checks) {
-    const ApexVerdict verdict = Judge(messages, comparison, bounds);
+  for (const auto& [cable, bounds] : checks) {
+    const std::vector<ApexTelemetry>& messages = telemetry.at(cable);
+    if (messages.empty()) {
+      ADD_FAILURE() << "no telemetry of cable '" << cable << "'";
+      continue;
+    }
+    const ApexVerdict verdict = Judge(messages, comparison[cable], bounds);
     for (const std::string& line : verdict.measured) std::cout << cable << ": " << line << "\n";
     for (const std::string& line : verdict.violations) ADD_FAILURE() << cable << ": " << line;
   }

@@ -4,7 +4,27 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include <iostream>
+#include <string>
+
+namespace {
+
+constexpr char kHelp[] =
+    "cable_node: simulates the cables of a vehicle live, as launch/replay.launch starts it.\n"
+    "Private parameters: ~vehicle (URDF file; default: robot_description), ~cables (YAML file),\n"
+    "~use_joint_states, ~world_frame, ~hold_joints, ~max_gap, ~dt, ~telemetry_rate, ~marker_rate,\n"
+    "~amplitude_window, ~json.\n"
+    "Topics: cables/NAME/apex, cables/NAME/markers, cables/markers, /diagnostics.\n";
+
+}  // namespace
+
 int main(int argc, char** argv) {
+  for (int i = 1; i < argc; ++i) {
+    if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h") {
+      std::cout << kHelp;
+      return 0;
+    }
+  }
   ros::init(argc, argv, "cable_node");
   cosserat_cable::Problems problems;
   const cosserat_cable::NodeOptions options =

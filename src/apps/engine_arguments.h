@@ -2,6 +2,8 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
 
 #include "cosserat_cable/ros/inputs.h"
 
@@ -24,8 +26,15 @@ inline void AddInputArguments(CLI::App* app, InputPaths* paths, EngineOptions* e
 
 /// Parses; false where the program is to end with `code`.
 inline bool Parse(CLI::App* app, int argc, char** argv, int* code) {
+  // roslaunch appends __name:=... and __log:=... to every program, also to those that need no master.
+  std::vector<std::string> arguments;
+  for (int i = argc - 1; i > 0; --i) {  // CLI11 takes them in reverse
+    const std::string argument = argv[i];
+    const bool remapping = argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
+    if (!remapping) arguments.push_back(argument);
+  }
   try {
-    app->parse(argc, argv);
+    app->parse(arguments);
     return true;
   } catch (const CLI::ParseError& error) {
     *code = app->exit(error) == 0 ? 0 : 2;

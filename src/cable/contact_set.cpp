@@ -33,12 +33,22 @@ std::vector<ContactSite> PlaceContactSites(const CableModel& model) {
   return sites;
 }
 
+std::vector<int> FirstSites(const std::vector<ContactSite>& sites) {
+  std::vector<int> first = {0};
+  for (const ContactSite& site : sites) {
+    first.resize(static_cast<std::size_t>(site.element) + 2, first.back());
+    ++first.back();
+  }
+  return first;
+}
+
 ContactSet::ContactSet(const CableModel& model, std::vector<const Body*> bodies)
     : radius_(0.5 * model.diameter), law_(model.contact), bodies_(std::move(bodies)) {
   if (!bodies_.empty()) sites_ = PlaceContactSites(model);
+  first_sites_ = FirstSites(sites_);
   trackers_.resize(sites_.size() * bodies_.size());
   found_.resize(trackers_.size());
-  watches_.resize(bodies_.size());
+  watches_.resize(elements() * bodies_.size());
   planes_.reserve(trackers_.size());
 }
 
@@ -48,78 +58,96 @@ ContactSet::Sphere ContactSet::Bound(const std::vector<Eigen::Vector3d>& points)
   return {box.center(), 0.5 * box.diagonal().norm()};
 }
 
-bool ContactSet::OutOfReach(std::size_t b, const Pose& X_BW, const Sphere& bound_W,
-                            const std::vector<Eigen::Vector3d>& nodes_W) {
-  Watch& watch = watches_[b];
-  const double needed = bound_W.radius + radius_ + kMargin;
-  if (bodies_[b]->LowerBound(X_BW * bound_W.centre) > needed) {
-    if (watch.known) Forget(b);
-    return true;
-  }
-  if (watch.slack <= 0) return false;
-  // A site lies between two nodes and moves by no more than the farther-moving one.
-  const Eigen::Matrix3d R_BW = X_BW.q.toRotationMatrix();
-  const double square = watch.slack * watch.slack;
-  for (std::size_t i = 0; i < nodes_W.size(); ++i)
-    if ((R_BW * nodes_W[i] + X_BW.p - watch.nodes_B[i]).squaredNorm() >= square) return false;
+bool ContactSet::OutOfReach(std::size_t body, std::size_t element, const Eigen::Vector3d& left_B,
+                            const Eigen::Vector3d& right_B) {
+  Watch& watch = WatchOf(body, element);
+  const double needed = radius_ + kMargin;
+  if (watch.DistanceAt(left_B, right_B) > needed) return true;
+  const double half = 0.5 * (right_B - left_B).norm();
+  // Sites that remember something look for themselves, as long as one of them is close.
+  if (watch.known && watch.distance <= needed + half) return false;
+  const Eigen::Vector3d middle_B = 0.5 * (left_B + right_B);
+  double distance = bodies_[body]->LowerBound(middle_B);
+  if (distance <= needed + half)
+    distance = std::min(kSearchReach, bodies_[body]->Query(middle_B, kSearchReach).distance);
+  if (distance <= needed + half) return false;
+  if (watch.known) Forget(body, element);
+  watch.left_B = left_B;
+  watch.right_B = right_B;
+  watch.distance = distance - half;
   return true;
 }
 
-void ContactSet::Forget(std::size_t b) {
-  const auto first = trackers_.begin() + b * sites_.size();
-  std::fill(first, first + sites_.size(), ContactTracker());
-  watches_[b].known = false;
-  watches_[b].slack = 0;
+void ContactSet::Forget(std::size_t body, std::size_t element) {
+  const auto first = trackers_.begin() + static_cast<std::ptrdiff_t>(body * sites_.size());
+  std::fill(first + first_sites_[element], first + first_sites_[element + 1], ContactTracker());
+  WatchOf(body, element) = Watch();
+}
+
+void ContactSet::SearchSites(const Place& place, std::size_t element, const Eigen::Vector3d& left_B,
+                             const Eigen::Vector3d& right_B) {
+  searched_.push_back({place.body, element});
+  Watch& watch = WatchOf(place.body, element);
+  watch.left_B = left_B;
+  watch.right_B = right_B;
+  watch.distance = kSearchReach;
+  for (int i = first_sites_[element]; i < first_sites_[element + 1]; ++i) {
+    const std::size_t k = place.body * sites_.size() + static_cast<std::size_t>(i);
+    Found& found = found_[k];
+    found.p_B = (1 - sites_[i].xi) * left_B + sites_[i].xi * right_B;
+    found.clearance =
+        trackers_[k].Look(*bodies_[place.body], found.p_B, radius_, kMargin, kSearchReach);
+    watch.distance = std::min(watch.distance, found.clearance.distance);
+    if (!found.clearance.exact || found.clearance.distance > radius_ + kMargin) continue;
+    const Eigen::Vector3d arm = place.R_WB * found.clearance.nearest;
+    planes_.push_back({i, static_cast<int>(place.body), ToSmall(place.motion.X.p + arm),
+                       ToSmall(place.R_WB * found.clearance.normal),
+                       ToSmall(place.motion.v + place.omega_W.cross(arm))});
+  }
 }
 
 void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
                         const std::vector<Motion>& bodies_W) {
   planes_.clear();
+  searched_.clear();
   if (bodies_.empty()) return;
   const Sphere bound_W = Bound(nodes_W);
+  nodes_B_.resize(nodes_W.size());
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Motion& motion = bodies_W[b];
-    const Pose X_BW = motion.X.Inverse();
-    Watch& watch = watches_[b];
-    watch.searched = !OutOfReach(b, X_BW, bound_W, nodes_W);
-    if (!watch.searched) continue;
-
     const Eigen::Matrix3d R_WB = motion.X.q.toRotationMatrix();
-    const Eigen::Vector3d omega_W = R_WB * motion.omega;
-    watch.nodes_B.resize(nodes_W.size());
-    for (std::size_t i = 0; i < nodes_W.size(); ++i)
-      watch.nodes_B[i] = R_WB.transpose() * (nodes_W[i] - motion.X.p);
-    watch.slack = kSearchReach;
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
-      const ContactSite& site = sites_[i];
-      const std::size_t k = b * sites_.size() + i;
-      Found& found = found_[k];
-      found.p_B =
-          (1 - site.xi) * watch.nodes_B[site.element] + site.xi * watch.nodes_B[site.element + 1];
-      found.clearance = trackers_[k].Look(*bodies_[b], found.p_B, radius_, kMargin, kSearchReach);
-      const double apart = found.clearance.distance - radius_ - kMargin;
-      watch.slack = std::min(watch.slack, apart);
-      if (!found.clearance.exact || apart > 0) continue;
-      const Eigen::Vector3d arm = R_WB * found.clearance.nearest;
-      planes_.push_back({static_cast<int>(i), static_cast<int>(b), ToSmall(motion.X.p + arm),
-                         ToSmall(R_WB * found.clearance.normal),
-                         ToSmall(motion.v + omega_W.cross(arm))});
+    const Eigen::Matrix3d R_BW = R_WB.transpose();
+    const double needed = bound_W.radius + radius_ + kMargin;
+    if (bodies_[b]->LowerBound(R_BW * (bound_W.centre - motion.X.p)) > needed) {
+      for (std::size_t e = 0; e < elements(); ++e)
+        if (WatchOf(b, e).known) Forget(b, e);
+      continue;
+    }
+    const Place place = {b, motion, R_WB, R_WB * motion.omega};
+    for (std::size_t i = 0; i < nodes_W.size(); ++i) nodes_B_[i] = R_BW * (nodes_W[i] - motion.X.p);
+    for (std::size_t e = 0; e < elements(); ++e) {
+      if (first_sites_[e] == first_sites_[e + 1]) continue;
+      if (!OutOfReach(b, e, nodes_B_[e], nodes_B_[e + 1]))
+        SearchSites(place, e, nodes_B_[e], nodes_B_[e + 1]);
     }
   }
 }
 
 void ContactSet::Accept() {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!watches_[b].searched) continue;
-    watches_[b].known = true;
-    for (std::size_t k = b * sites_.size(); k < (b + 1) * sites_.size(); ++k)
+  for (const Searched& searched : searched_) {
+    WatchOf(searched.body, searched.element).known = true;
+    for (int i = first_sites_[searched.element]; i < first_sites_[searched.element + 1]; ++i) {
+      const std::size_t k = searched.body * sites_.size() + static_cast<std::size_t>(i);
       trackers_[k].Accept(found_[k].p_B, found_[k].clearance);
+    }
   }
 }
 
 void ContactSet::Reset() {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) Forget(b);
+  std::fill(trackers_.begin(), trackers_.end(), ContactTracker());
+  std::fill(watches_.begin(), watches_.end(), Watch());
   planes_.clear();
+  searched_.clear();
 }
 
 ContactSet::Gap ContactSet::MeasureGap(const Plane& plane, const rod::Centreline& rod) const {

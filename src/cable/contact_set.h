@@ -10,6 +10,7 @@
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/contact/tracker.h"
 #include "cosserat_cable/rod/load.h"
+#include "element_watch.h"
 
 namespace cosserat_cable {
 
@@ -20,9 +21,13 @@ struct ContactSite {
   double s;   ///< arc length [m]
 };
 
-/// The sites of a cable: nodes, and evenly spaced between them, no farther apart than the radius, and none within a
-/// diameter of a clamp, where the fitting is.
+/// The sites of a cable: nodes, and evenly spaced between them, no farther apart than the radius,
+/// and none within a diameter of a clamp, where the fitting is.
 std::vector<ContactSite> PlaceContactSites(const CableModel& model);
+
+/// For each element the index of its first site, and the number of sites at the end. The last
+/// elements may be missing where they have none.
+std::vector<int> FirstSites(const std::vector<ContactSite>& sites);
 
 class ContactSet : public rod::Load {
  public:
@@ -58,32 +63,49 @@ class ContactSet : public rod::Load {
     double penetration, rate;
     Vec3<double> position;
   };
-  /// When a body was last searched site by site, and how far the cable may move before it must be
-  /// again.
-  struct Watch {
-    bool searched = false;                 // in the last call of Search
-    bool known = false;                    // whether the trackers remember anything
-    double slack = 0;                      // [m]; 0: search every time
-    std::vector<Eigen::Vector3d> nodes_B;  // then [m]
+  /// An element against one body.
+  struct Watch : ElementWatch {
+    bool known = false;  // whether its sites' trackers remember anything
   };
   struct Sphere {
     Eigen::Vector3d centre;
     double radius;
   };
+  /// A body during one search.
+  struct Place {
+    std::size_t body;
+    const Motion& motion;  // in W
+    Eigen::Matrix3d R_WB;
+    Eigen::Vector3d omega_W;
+  };
   static Sphere Bound(const std::vector<Eigen::Vector3d>& points);
-  /// True where no site can be within the radius and the margin of body `b`; updates its watch.
-  bool OutOfReach(std::size_t b, const Pose& X_BW, const Sphere& bound_W,
-                  const std::vector<Eigen::Vector3d>& nodes_W);
-  void Forget(std::size_t b);
+  std::size_t elements() const { return first_sites_.size() - 1; }
+  Watch& WatchOf(std::size_t body, std::size_t element) {
+    return watches_[body * elements() + element];
+  }
+  /// True where no site of the element can be within the radius and the margin of the body; updates
+  /// its watch.
+  bool OutOfReach(std::size_t body, std::size_t element, const Eigen::Vector3d& left_B,
+                  const Eigen::Vector3d& right_B);
+  void SearchSites(const Place& place, std::size_t element, const Eigen::Vector3d& left_B,
+                   const Eigen::Vector3d& right_B);
+  void Forget(std::size_t body, std::size_t element);
   Gap MeasureGap(const Plane& plane, const rod::Centreline& rod) const;
 
   double radius_;
   ContactLaw law_;
   std::vector<const Body*> bodies_;
   std::vector<ContactSite> sites_;
+  std::vector<int> first_sites_;
   std::vector<ContactTracker> trackers_;  // body-major
   std::vector<Found> found_;              // likewise, of the last search
-  std::vector<Watch> watches_;            // by body
+  std::vector<Watch> watches_;            // likewise, by element
+
+  struct Searched {
+    std::size_t body, element;
+  };
+  std::vector<Searched> searched_;        // in the last search, site by site
+  std::vector<Eigen::Vector3d> nodes_B_;  // scratch
   std::vector<Plane> planes_;
 };
 

@@ -1,28 +1,12 @@
 #include "cosserat_cable/contact/body.h"
 
-#include <cmath>
-#include <stdexcept>
+#include <limits>
 
-#include "mesh_cleanup.h"
+#include "mesh_store.h"
 #include "mesh_surface.h"
 #include "primitive_surface.h"
 
 namespace cosserat_cable {
-namespace {
-
-void RequireValid(const TriangleMesh& mesh) {
-  for (const Eigen::Vector3d& v : mesh.vertices) {
-    if (!v.allFinite()) throw std::invalid_argument("mesh has a vertex that is not finite");
-  }
-  const int count = static_cast<int>(mesh.vertices.size());
-  for (const Eigen::Vector3i& t : mesh.triangles) {
-    if (t.minCoeff() < 0 || t.maxCoeff() >= count) {
-      throw std::invalid_argument("mesh has a triangle with an index out of range");
-    }
-  }
-}
-
-}  // namespace
 
 struct Body::Impl {
   std::vector<std::unique_ptr<Surface>> surfaces;
@@ -30,28 +14,27 @@ struct Body::Impl {
   int triangle_count = 0;
 
   template <typename Primitive>
-  void Add(const Primitive& primitive, const Pose& X_BS, int index) {
+  void Add(const Primitive& primitive, const Pose& X_BS, int index, MeshStore*) {
     surfaces.push_back(MakeSurface(primitive, X_BS, index));
   }
 
-  void Add(const TriangleMesh& mesh_S, const Pose& X_BS, int index) {
-    RequireValid(mesh_S);
-    TriangleMesh mesh_B = mesh_S;
-    for (Eigen::Vector3d& v : mesh_B.vertices) v = X_BS * v;
-    for (OrientedMesh& part : SplitIntoParts(CleanMesh(mesh_B))) {
-      triangle_count += static_cast<int>(part.mesh.triangles.size());
-      surfaces.push_back(MakeSurface(std::move(part), index));
+  void Add(const TriangleMesh& mesh, const Pose& X_BS, int index, MeshStore* store) {
+    for (const auto& part : store ? store->impl_->PartsOf(mesh) : MakeMeshParts(mesh)) {
+      triangle_count += static_cast<int>(part->mesh().triangles.size());
+      surfaces.push_back(MakeSurface(part, X_BS, index));
     }
   }
 };
 
-Body::Body(const std::vector<Shape>& shapes) : impl_(std::make_unique<Impl>()) {
+Body::Body(const std::vector<Shape>& shapes, MeshStore* store) : impl_(std::make_unique<Impl>()) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     std::visit(
-        [&](const auto& geometry) { impl_->Add(geometry, shapes[i].X_LS, static_cast<int>(i)); },
+        [&](const auto& geometry) {
+          impl_->Add(geometry, shapes[i].X_LS, static_cast<int>(i), store);
+        },
         shapes[i].geometry);
   }
-  for (const auto& surface : impl_->surfaces) impl_->bounds.extend(surface->box());
+  for (const auto& surface : impl_->surfaces) impl_->bounds.extend(surface->envelope().box());
 }
 
 Body::~Body() = default;
@@ -62,8 +45,8 @@ Clearance Body::Query(const Eigen::Vector3d& p_B, double reach) const {
   Clearance best;
   if (!p_B.allFinite()) return best;
   for (const auto& surface : impl_->surfaces) {
-    const double at_least = surface->box().exteriorDistance(p_B);
-    // Only within its box can a shape have a distance below zero.
+    const double at_least = surface->envelope().Distance(p_B);
+    // Only within its envelope can a shape have a distance below zero.
     if (at_least > 0 && (at_least >= reach || at_least >= best.distance)) continue;
     surface->Improve(p_B, reach, &best);
   }
@@ -74,7 +57,7 @@ double Body::LowerBound(const Eigen::Vector3d& p_B) const {
   double bound = std::numeric_limits<double>::infinity();
   if (!p_B.allFinite()) return bound;
   for (const auto& surface : impl_->surfaces) {
-    const double at_least = surface->box().exteriorDistance(p_B);
+    const double at_least = surface->envelope().Distance(p_B);
     if (at_least == 0) return -std::numeric_limits<double>::infinity();
     bound = std::min(bound, at_least);
   }

@@ -1,80 +1,40 @@
 #include "mesh_surface.h"
 
-#include <cmath>
-#include <limits>
-
-#include "triangle_tree.h"
-
 namespace cosserat_cable {
 namespace {
 
-// Nearer to the surface than this fraction of the part, the direction to it is rounding noise and
-// the normal is the feature's own.
-constexpr double kOnSurface = 1e-9;
+TriangleMesh Moved(TriangleMesh mesh_S, const Pose& X_BS) {
+  for (Eigen::Vector3d& v : mesh_S.vertices) v = X_BS * v;
+  return mesh_S;
+}
 
 class MeshSurface : public Surface {
  public:
-  MeshSurface(OrientedMesh part, int index)
-      : part_(std::move(part)), tree_(part_.mesh), index_(index) {
-    for (const Eigen::Vector3d& v : part_.mesh.vertices) box_.extend(v);
-    noise_ = kOnSurface * box_.diagonal().norm();
+  MeshSurface(std::shared_ptr<const MeshPart> part, const Pose& X_BS, int index)
+      : part_(std::move(part)), X_BS_(X_BS), X_SB_(X_BS.Inverse()), index_(index) {
+    envelope_ = Envelope(Moved(part_->mesh(), X_BS));
   }
 
   void Improve(const Eigen::Vector3d& p_B, double reach, Clearance* best) const override {
-    const bool may_be_inside = part_.closed && box_.contains(p_B);
-    double bound = std::min(reach, best->distance);
-    if (bound <= 0) {
-      if (!may_be_inside) return;
-      bound = std::numeric_limits<double>::infinity();
-    }
-    TriangleTree::Hit hit = tree_.Nearest(p_B, bound);
-    if (hit.triangle < 0 && may_be_inside) {
-      // No surface within reach, which also holds deep inside: only the sign matters now.
-      hit = tree_.Nearest(p_B, std::numeric_limits<double>::infinity());
-    }
-    if (hit.triangle < 0) return;
-    const Clearance found = Resolve(p_B, hit);
-    if (found.distance < reach && found.distance < best->distance) *best = found;
+    Clearance found = part_->Nearest(X_SB_ * p_B, reach, best->distance);
+    if (found.distance >= best->distance) return;
+    found.nearest = X_BS_ * found.nearest;
+    found.normal = X_BS_.q * found.normal;
+    found.shape = index_;
+    *best = found;
   }
 
  private:
-  Clearance Resolve(const Eigen::Vector3d& p, const TriangleTree::Hit& hit) const {
-    const Feature feature = hit.closest.feature;
-    const Eigen::Vector3d offset = p - hit.closest.point;
-    Eigen::Vector3d pseudonormal = part_.Normal(hit.triangle, feature);
-    if (pseudonormal.isZero()) pseudonormal = part_.faces[hit.triangle].normal;
-
-    Clearance result;
-    result.nearest = hit.closest.point;
-    result.shape = index_;
-    result.two_sided = !part_.closed;
-    result.rim = part_.IsRim(hit.triangle, feature);
-    const double height = offset.dot(pseudonormal);
-    const double side = height < 0 ? -1 : 1;
-    const double distance =
-        feature == Feature::kFace ? std::abs(height) : std::sqrt(hit.distance_squared);
-    const bool direction_is_noise = feature == Feature::kFace || distance < noise_;
-    if (part_.closed) {
-      result.distance = side * distance;
-      result.normal = direction_is_noise ? pseudonormal : Eigen::Vector3d(side / distance * offset);
-    } else {
-      result.distance = distance;
-      result.normal = direction_is_noise ? Eigen::Vector3d(side * pseudonormal)
-                                         : Eigen::Vector3d(offset / distance);
-    }
-    return result;
-  }
-
-  OrientedMesh part_;
-  TriangleTree tree_;
+  std::shared_ptr<const MeshPart> part_;
+  Pose X_BS_, X_SB_;
   int index_;
-  double noise_;
 };
 
 }  // namespace
 
-std::unique_ptr<Surface> MakeSurface(OrientedMesh part, int index) {
-  return std::make_unique<MeshSurface>(std::move(part), index);
+std::unique_ptr<Surface> MakeSurface(std::shared_ptr<const MeshPart> part, const Pose& X_BS,
+                                     int index) {
+  return std::make_unique<MeshSurface>(std::move(part), X_BS, index);
 }
 
 }  // namespace cosserat_cable

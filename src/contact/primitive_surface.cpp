@@ -96,7 +96,7 @@ class PrimitiveSurface : public Surface {
   PrimitiveSurface(const Geometry& geometry, const Pose& X_BS, int index)
       : geometry_(geometry), X_BS_(X_BS), X_SB_(X_BS.Inverse()), index_(index) {
     const Eigen::Vector3d half = HalfExtent(geometry, X_BS.q.toRotationMatrix());
-    box_ = Eigen::AlignedBox3d(X_BS.p - half, X_BS.p + half);
+    envelope_ = Envelope(Eigen::AlignedBox3d(X_BS.p - half, X_BS.p + half));
   }
 
   void Improve(const Eigen::Vector3d& p_B, double reach, Clearance* best) const override {

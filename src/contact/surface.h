@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "cosserat_cable/contact/body.h"
+#include "envelope.h"
 
 namespace cosserat_cable {
 
@@ -13,11 +14,11 @@ class Surface {
   /// Replaces `best` if this surface is nearer to `p_B` (in the signed sense) and nearer than
   /// `reach` [m].
   virtual void Improve(const Eigen::Vector3d& p_B, double reach, Clearance* best) const = 0;
-  /// Holds the surface, so that a point outside of the box is outside of the shape.
-  const Eigen::AlignedBox3d& box() const { return box_; }
+  /// Holds the surface, so that a point outside of it is outside of the shape.
+  const Envelope& envelope() const { return envelope_; }
 
  protected:
-  Eigen::AlignedBox3d box_;
+  Envelope envelope_;
 };
 
 }  // namespace cosserat_cable

@@ -48,9 +48,9 @@ const SplineWeights& RecalledWeights(const std::array<double, kMaxWindow>& times
 /// The logarithm of q that is nearest to `previous`, so that a window may span more than a turn.
 Eigen::Vector3d LogNear(const Eigen::Quaterniond& q, const Eigen::Vector3d& previous) {
   const Eigen::Vector3d phi = RotationLog(q);
-  const double angle = phi.norm();
-  if (angle == 0) return phi;
-  const Eigen::Vector3d other = phi * (1 - 2 * M_PI / angle);
+  // All others are a full turn away from phi.
+  if ((phi - previous).squaredNorm() <= M_PI * M_PI || phi.isZero(0)) return phi;
+  const Eigen::Vector3d other = phi * (1 - 2 * M_PI / phi.norm());
   return (other - previous).squaredNorm() < (phi - previous).squaredNorm() ? other : phi;
 }
 
@@ -230,16 +230,29 @@ Motion PoseCurve::Evaluate(double time) const {
 
   const int i = IntervalAt(time);
   double start = knots_[i].time;
-  const double end = knots_[i + 1].time;
   if (knots_[i + 1].gap_before) {
-    start = end - max_gap_;
+    start = knots_[i + 1].time - max_gap_;
     if (time <= start) return Motion::Resting(knots_[i].motion.X);
   }
-  if (i + 1 < final_count_) {
-    return MotionBetween(knots_[i].motion, knots_[i + 1].motion, end - start, time - start);
+  return PieceFrom(i, start).At(time - start);
+}
+
+MotionPiece PoseCurve::PieceFrom(int knot, double start) const {
+  const auto motion = [this](int i) {
+    return i < final_count_ ? knots_[i].motion : MotionAt(i, WindowOf(i));
+  };
+  return {motion(knot), motion(knot + 1), knots_[knot + 1].time - start};
+}
+
+Motion PoseCurve::Follow(double time) {
+  if (!followed_ || time < followed_->begin || time >= followed_->end) {
+    followed_.reset();
+    if (time < begin_time() || time >= ready_until()) return Evaluate(time);
+    const int i = IntervalAt(time);
+    if (knots_[i + 1].gap_before) return Evaluate(time);
+    followed_ = FollowedPiece{knots_[i].time, knots_[i + 1].time, PieceFrom(i, knots_[i].time)};
   }
-  const Motion left = i < final_count_ ? knots_[i].motion : MotionAt(i, WindowOf(i));
-  return MotionBetween(left, MotionAt(i + 1, WindowOf(i + 1)), end - start, time - start);
+  return followed_->motion.At(time - followed_->begin);
 }
 
 bool PoseCurve::InGap(double time) const {

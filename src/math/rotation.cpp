@@ -8,6 +8,8 @@ namespace {
 // Below this angle [rad] closed forms lose digits by cancellation (the worst ones like eps/t^5),
 // and the series below, cut after t^10, are good to 1e-14.
 constexpr double kSeriesAngle = 0.3;
+// Below this sin^2 of half the angle a series gives the logarithm in a fraction of atan2's time.
+constexpr double kSmallSineSquared = 1e-3;
 
 /// a = (1 - cos t)/t^2 and b = (t - sin t)/t^3, with a' = (da/dt)/t and b' = (db/dt)/t, which stay
 /// finite at t = 0.
@@ -73,9 +75,15 @@ Eigen::Quaterniond RotationExp(const Eigen::Vector3d& phi) {
 }
 
 Eigen::Vector3d RotationLog(const Eigen::Quaterniond& q) {
-  const double sine = q.vec().norm();
   const double sign = q.w() < 0 ? -1 : 1;
-  if (sine == 0) return Eigen::Vector3d::Zero();
+  const double x = q.vec().squaredNorm();
+  if (x < kSmallSineSquared) {
+    // 2 asin(s)/s in x = s^2; the first dropped term is below 1e-17.
+    return q.vec() *
+           (sign * (2 + x * (1. / 3 +
+                             x * (3. / 20 + x * (5. / 56 + x * (35. / 576 + x * (63. / 1408)))))));
+  }
+  const double sine = std::sqrt(x);
   return q.vec() * (sign * 2 * std::atan2(sine, sign * q.w()) / sine);
 }
 

@@ -80,20 +80,28 @@ class Judgement {
   ApexVerdict verdict_;
 };
 
-// Root mean square distance of equally stamped positions; NaN where no stamp is in both.
-double RmsDifference(const std::vector<ApexTelemetry>& messages,
-                     const std::vector<ApexTelemetry>& comparison) {
+struct Difference {
+  double rms = 0;             // distance of positions with equal stamps [m]
+  std::size_t unmatched = 0;  // messages whose stamp the comparison lacks
+};
+
+Difference Compare(const std::vector<ApexTelemetry>& messages,
+                   const std::vector<ApexTelemetry>& comparison) {
   std::map<std::int64_t, Eigen::Vector3d> other;
   for (const ApexTelemetry& m : comparison) other[ToNanoseconds(m.header.stamp)] = Position(m);
+  Difference difference;
   double sum = 0;
-  std::size_t count = 0;
   for (const ApexTelemetry& m : messages) {
     const auto found = other.find(ToNanoseconds(m.header.stamp));
-    if (found == other.end()) continue;
-    sum += (Position(m) - found->second).squaredNorm();
-    ++count;
+    if (found == other.end()) {
+      ++difference.unmatched;
+    } else {
+      sum += (Position(m) - found->second).squaredNorm();
+    }
   }
-  return std::sqrt(sum / static_cast<double>(count));
+  const auto matched = static_cast<double>(messages.size() - difference.unmatched);
+  difference.rms = std::sqrt(sum / std::max(1.0, matched));
+  return difference;
 }
 
 }  // namespace
@@ -129,7 +137,13 @@ ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
     return judgement.verdict();
   }
   double clearance = std::numeric_limits<double>::infinity();
-  double curvature = 0, force = 0, interval = 0;
+  double curvature = 0, force = 0;
+  // A run that ends within the window leaves an interval, too.
+  const ros::Time zero = messages.front().header.stamp;
+  double interval = (window.front().header.stamp - zero).toSec() - bounds.start;
+  if (std::isfinite(bounds.end)) {
+    interval = std::max(interval, bounds.end - (window.back().header.stamp - zero).toSec());
+  }
   for (const ApexTelemetry& m : window) {
     clearance = std::min(clearance, m.clearance);
     curvature = std::max(curvature, m.curvature_max);
@@ -147,8 +161,13 @@ ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
   judgement.AtMost("contact force", force, bounds.max_contact_force, 1, "N");
   judgement.AtMost("interval between messages", interval, bounds.max_interval, 1e3, "ms");
   if (!std::isnan(bounds.max_rms_difference)) {
-    judgement.AtMost("rms difference from the comparison", RmsDifference(window, comparison),
+    const Difference difference = Compare(window, comparison);
+    judgement.AtMost("rms difference from the comparison", difference.rms,
                      bounds.max_rms_difference, 1e3, "mm");
+    if (difference.unmatched > 0) {
+      judgement.Violate(std::to_string(difference.unmatched) + " of " +
+                        std::to_string(window.size()) + " stamps are not in the comparison");
+    }
   }
   return judgement.verdict();
 }

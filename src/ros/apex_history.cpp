@@ -8,25 +8,44 @@ namespace cosserat_cable {
 
 void ApexHistory::Add(std::int64_t time, const Eigen::Vector3d& position) {
   samples_.push_back({time, position});
-  while (samples_.front().time < time - window_) samples_.pop_front();
+  while (samples_[first_].time < time - window_) ++first_;
+  // What has left is moved out once it is the greater part: a constant cost for each sample.
+  if (first_ > samples_.size() / 2) {
+    samples_.erase(samples_.begin(), samples_.begin() + static_cast<std::ptrdiff_t>(first_));
+    first_ = 0;
+  }
+}
+
+void ApexHistory::Clear() {
+  samples_.clear();
+  first_ = 0;
 }
 
 double ApexHistory::PeakToPeak() const {
-  if (samples_.size() < 2) return 0;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Sample& sample : samples_) mean += sample.position;
-  mean /= static_cast<double>(samples_.size());
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (const Sample& sample : samples_) {
-    const Eigen::Vector3d d = sample.position - mean;
-    scatter += d * d.transpose();
+  const std::size_t count = samples_.size() - first_;
+  if (count < 2) return 0;
+  // Relative to a sample, the moments about the mean follow from one walk without cancellation.
+  const Eigen::Vector3d origin = samples_.back().position;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d squares = Eigen::Vector3d::Zero();
+  Eigen::Vector3d products = Eigen::Vector3d::Zero();  // yz, zx, xy
+  for (std::size_t i = first_; i < samples_.size(); ++i) {
+    const Eigen::Vector3d d = samples_[i].position - origin;
+    sum += d;
+    squares += d.cwiseProduct(d);
+    products += Eigen::Vector3d(d.y() * d.z(), d.z() * d.x(), d.x() * d.y());
   }
+  Eigen::Matrix3d scatter;
+  scatter << squares.x(), products.z(), products.y(),  //
+      products.z(), squares.y(), products.x(),         //
+      products.y(), products.x(), squares.z();
+  scatter -= sum * sum.transpose() / static_cast<double>(count);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
   const Eigen::Vector3d axis = eigen.eigenvectors().col(2);
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const Sample& sample : samples_) {
-    const double along = axis.dot(sample.position - mean);
+  for (std::size_t i = first_; i < samples_.size(); ++i) {
+    const double along = axis.dot(samples_[i].position - origin);
     low = std::min(low, along);
     high = std::max(high, along);
   }

@@ -13,7 +13,7 @@ namespace cosserat_cable {
 namespace {
 
 // How much may be written before room is made again [bytes].
-constexpr std::uint64_t kPiece = 256 * 1024;
+constexpr std::uint64_t kPiece = 2 * 1024 * 1024;
 // Room kept ahead of the file's end: a piece, a chunk that rosbag still holds (768 kB), and the
 // index, which grows by about a kilobyte for each chunk: a thousandth of the file [bytes].
 constexpr std::uint64_t kRoom = 4 * 1024 * 1024;

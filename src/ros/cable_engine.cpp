@@ -90,8 +90,9 @@ std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables) {
 
 BodyMap MakeBodies(const VehicleModel& vehicle) {
   BodyMap bodies;
+  MeshStore store;
   for (const auto& [link, shapes] : vehicle.collision) {
-    if (!shapes.empty()) bodies[link] = std::make_unique<Body>(shapes);
+    if (!shapes.empty()) bodies[link] = std::make_unique<Body>(shapes, &store);
   }
   return bodies;
 }
@@ -121,6 +122,10 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
     cable.a = FrameIndex(model.a.link);
     cable.b = FrameIndex(model.b.link);
   }
+  std::vector<CableSimulation*> simulations;
+  for (Cable& cable : cables_) simulations.push_back(&cable.simulation);
+  fleet_ = std::make_unique<CableFleet>(simulations);
+  surroundings_.resize(cables_.size());
 }
 
 CableEngine::~CableEngine() = default;
@@ -145,7 +150,7 @@ void CableEngine::Finish() {
 }
 
 void CableEngine::EvaluateFrames(std::int64_t time) {
-  for (Frame& frame : frames_) frame.motion = links_.Evaluate(frame.link, time);
+  for (Frame& frame : frames_) frame.motion = links_.Follow(frame.link, time);
 }
 
 Surroundings CableEngine::SurroundingsOf(const Cable& cable) const {
@@ -215,14 +220,20 @@ void CableEngine::Record(Cable* cable) {
 
 void CableEngine::StepAll() {
   EvaluateFrames(now_ + dt_);
-  for (Cable& cable : cables_) {
-    if (cable.failed) continue;
-    const StepOutcome outcome =
-        cable.simulation.Step(static_cast<double>(dt_) * 1e-9, SurroundingsOf(cable));
-    cable.summary.iterations += static_cast<std::uint64_t>(outcome.iterations);
-    if (outcome.substeps > 1) ++cable.summary.retried_steps;
-    if (!outcome.ok) {
-      Fail(&cable, outcome.message);
+  std::vector<const Surroundings*> then(cables_.size(), nullptr);
+  for (std::size_t i = 0; i < cables_.size(); ++i) {
+    if (cables_[i].failed) continue;
+    surroundings_[i] = SurroundingsOf(cables_[i]);
+    then[i] = &surroundings_[i];
+  }
+  const std::vector<StepOutcome> outcomes = fleet_->Step(static_cast<double>(dt_) * 1e-9, then);
+  for (std::size_t i = 0; i < cables_.size(); ++i) {
+    if (!then[i]) continue;
+    Cable& cable = cables_[i];
+    cable.summary.iterations += static_cast<std::uint64_t>(outcomes[i].iterations);
+    if (outcomes[i].substeps > 1) ++cable.summary.retried_steps;
+    if (!outcomes[i].ok) {
+      Fail(&cable, outcomes[i].message);
       continue;
     }
     ++cable.summary.steps;

@@ -287,6 +287,11 @@ Motion LinkMotion::Evaluate(const std::string& link, std::int64_t time) const {
   return tree_.Evaluate(world_, link, Seconds(time));
 }
 
+Motion LinkMotion::Follow(const std::string& link, std::int64_t time) {
+  if (link == world_) return Motion();
+  return tree_.Follow(world_, link, Seconds(time));
+}
+
 bool LinkMotion::InGap(const std::string& link, std::int64_t time) const {
   return link != world_ && tree_.InGap(world_, link, Seconds(time));
 }

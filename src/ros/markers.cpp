@@ -16,7 +16,7 @@ enum Id { kTube, kClamps, kContactPoints, kContactForces, kName };
 
 constexpr double kClampAxisLength = 3;  // in cable diameters
 constexpr double kLineWidth = 0.15;     // in cable diameters
-constexpr double kTextHeight = 1.5;     // in cable diameters
+constexpr double kTextHeight = 0.01;    // [m], the same for thin cables: it is there to be read
 
 std_msgs::ColorRGBA Color(const Eigen::Vector3d& rgb) {
   std_msgs::ColorRGBA color;
@@ -135,10 +135,12 @@ Marker MakeName(const CableSimulation& cable, const Pose& X_RW, std::int64_t tim
   const CableModel& model = cable.model();
   Marker text = NewMarker(model, time, kName, Marker::TEXT_VIEW_FACING);
   text.text = model.name;
-  text.scale.z = kTextHeight * model.diameter;
+  text.scale.z = kTextHeight;
+  // Dark enough for a light background, light enough for a dark one.
+  text.color = Color({0.35, 0.38, 0.45});
   const Pose apex = InterpolateNodes(cable.nodes(), model.length, model.apex_s);
   text.pose.position = ToPoint(X_RW * apex.p);
-  text.pose.position.z += 2 * kTextHeight * model.diameter;
+  text.pose.position.z += model.diameter + kTextHeight;
   return text;
 }
 

@@ -37,7 +37,10 @@ std::string ResolveMesh(const std::string& name, const std::string& path,
 
 TriangleMesh LoadMeshNamed(const urdf::Mesh& mesh, const tinyxml2::XMLElement& element,
                            const std::string& path, const PackageFinder& find_package,
-                           Problems* problems) {
+                           MeshCache* cache, Problems* problems) {
+  const MeshCache::key_type written = {mesh.filename, {mesh.scale.x, mesh.scale.y, mesh.scale.z}};
+  const auto known = cache->find(written);
+  if (known != cache->end()) return known->second;
   const std::string key = "mesh.filename";
   std::string error;
   const std::string file = ResolveMesh(mesh.filename, path, find_package, &error);
@@ -51,6 +54,7 @@ TriangleMesh LoadMeshNamed(const urdf::Mesh& mesh, const tinyxml2::XMLElement& e
   for (const Problem& problem : found.all()) {
     problems->Add(path, element.GetLineNum(), key, problem.file + ": " + problem.message);
   }
+  if (found.empty()) cache->emplace(written, loaded);
   return loaded;
 }
 
@@ -64,7 +68,7 @@ Pose ToPose(const urdf::Pose& pose) {
 
 std::vector<Shape> LoadCollision(const urdf::Link& link, const tinyxml2::XMLElement& element,
                                  const std::string& path, const PackageFinder& find_package,
-                                 Problems* problems) {
+                                 MeshCache* cache, Problems* problems) {
   std::vector<Shape> shapes;
   const tinyxml2::XMLElement* written = element.FirstChildElement("collision");
   for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
@@ -89,7 +93,7 @@ std::vector<Shape> LoadCollision(const urdf::Link& link, const tinyxml2::XMLElem
         shape.geometry =
             LoadMeshNamed(static_cast<const urdf::Mesh&>(geometry),
                           *written->FirstChildElement("geometry")->FirstChildElement("mesh"), path,
-                          find_package, problems);
+                          find_package, cache, problems);
         break;
     }
     shapes.push_back(std::move(shape));

@@ -44,6 +44,7 @@ bool MotionTree::SetFixed(const std::string& parent, const std::string& child, c
   Frame* frame = Attach(parent, child);
   if (!frame) return false;
   frame->fixed = true;
+  ++revision_;
   frame->X_PC = {X_PC.p, X_PC.q.normalized()};
   return true;
 }
@@ -53,14 +54,17 @@ bool MotionTree::Append(const std::string& parent, const std::string& child, dou
   const Frame* known = Find(child);
   if (known && known->fixed) return false;
   Frame* frame = Attach(parent, child);
+  ++revision_;
   return frame && frame->curve.Append(time, X_PC);
 }
 
 void MotionTree::Finish() {
+  ++revision_;
   for (auto& [name, frame] : frames_) frame.curve.Finish();
 }
 
 void MotionTree::Clear() {
+  ++revision_;
   for (auto& [name, frame] : frames_) frame.curve = PoseCurve(max_gap_);
 }
 
@@ -124,6 +128,22 @@ Motion MotionTree::Evaluate(const std::string& ancestor, const std::string& fram
     motion = (f->fixed ? Motion::Resting(f->X_PC) : f->curve.Evaluate(time)) * motion;
   }
   return motion;
+}
+
+const Motion& MotionTree::FollowBelow(const Frame* top, Frame* frame, double time) {
+  Frame::Followed& known = frame->followed;
+  if (known.top != top || known.time != time || known.revision != revision_) {
+    const Motion edge = frame->fixed ? Motion::Resting(frame->X_PC) : frame->curve.Follow(time);
+    Frame* parent = frame->parent;
+    known = {top, time, revision_, parent == top ? edge : FollowBelow(top, parent, time) * edge};
+  }
+  return known.motion;
+}
+
+Motion MotionTree::Follow(const std::string& ancestor, const std::string& frame, double time) {
+  assert(Connected(ancestor, frame));
+  if (ancestor == frame) return Motion();
+  return FollowBelow(Find(ancestor), &frames_.find(frame)->second, time);
 }
 
 bool MotionTree::InGap(const std::string& ancestor, const std::string& frame, double time) const {

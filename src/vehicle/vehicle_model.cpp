@@ -135,6 +135,7 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
     vehicle.joints.push_back(ToJoint(*model->getJoint(NameOf(*e))));
   }
   ResolveMimicChains(&vehicle);
+  MeshCache meshes;
   for (const XMLElement* e = robot->FirstChildElement("link"); e;
        e = e->NextSiblingElement("link")) {
     const std::string link = NameOf(*e);
@@ -142,7 +143,7 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
       continue;
     }
     std::vector<Shape> shapes =
-        LoadCollision(*model->getLink(link), *e, path, find_package, problems);
+        LoadCollision(*model->getLink(link), *e, path, find_package, &meshes, problems);
     if (!shapes.empty()) vehicle.collision[link] = std::move(shapes);
   }
   return vehicle;

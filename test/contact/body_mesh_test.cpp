@@ -11,8 +11,10 @@ namespace {
 using test::BoxMesh;
 using test::BruteForceDistance;
 using test::MakeBody;
+using test::MakeShape;
 using test::RandomPoints;
 using test::SheetMesh;
+using test::SomePose;
 using test::SphereMesh;
 using test::UrchinMesh;
 using test::WindingNumber;
@@ -316,6 +318,71 @@ TEST(BodyMesh, EmptyBodyIsInfinitelyFar) {
   EXPECT_EQ(body.LowerBound({0, 0, 0}), kFar);
   EXPECT_TRUE(body.bounds().isEmpty());
   EXPECT_EQ(body.triangle_count(), 0);
+}
+
+// A square ring about y, as a wheel lies in its frame: outer half width 0.3, inner 0.2, along y
+// from -0.05 to 0.05 [m].
+TriangleMesh SquareRing() {
+  TriangleMesh ring;
+  for (const double half : {0.3, 0.2}) {
+    for (const double y : {-0.05, 0.05}) {
+      for (int i = 0; i < 4; ++i) {
+        ring.vertices.push_back({i == 0 || i == 3 ? half : -half, y, i < 2 ? half : -half});
+      }
+    }
+  }
+  const auto add_side = [&](int from, int to) {
+    for (int i = 0; i < 4; ++i) {
+      const int j = (i + 1) % 4;
+      ring.triangles.push_back({from + i, from + j, to + j});
+      ring.triangles.push_back({from + i, to + j, to + i});
+    }
+  };
+  add_side(0, 4);   // outside
+  add_side(12, 8);  // inside
+  add_side(8, 0);   // at either end
+  add_side(4, 12);
+  return ring;
+}
+
+TEST(BodyMesh, LowerBoundKnowsTheHoleOfAWheel) {
+  const TriangleMesh ring = SquareRing();
+  const Body body = MakeBody(ring, SomePose());
+  const Body centred = MakeBody(ring);
+  RandomPoints random(21);
+  for (int i = 0; i < 2000; ++i) {
+    const Eigen::Vector3d p = random.InCube(0.6);
+    EXPECT_LE(centred.LowerBound(p), BruteForceDistance(ring, p) + kRounding);
+    EXPECT_LE(body.LowerBound(SomePose() * p), BruteForceDistance(ring, p) + kRounding);
+  }
+  // Beside the ring, never less than from the circle of its corners; in its hole, about y, turning
+  // changes nothing.
+  for (double angle = 0; angle < 2 * M_PI; angle += 0.1) {
+    const Eigen::Vector3d around(std::cos(angle), 0, std::sin(angle));
+    EXPECT_GE(centred.LowerBound(0.5 * around), 0.5 - 0.3 * std::sqrt(2) - kRounding);
+    EXPECT_NEAR(centred.LowerBound(0.05 * around), 0.15, kRounding);
+  }
+}
+
+TEST(BodyMesh, BodiesOfOneStoreAnswerAsIfAlone) {
+  const TriangleMesh mesh = UrchinMesh(0.3, 9, 13);
+  MeshStore store;
+  const Body first(std::vector<Shape>{MakeShape({}, mesh)}, &store);
+  const std::vector<Shape> shapes = {MakeShape(SomePose(), mesh),
+                                     MakeShape({}, BoxMesh({0.9, 0.1, 0.1}))};
+  const Body second(shapes, &store);
+  const Body alone(shapes);
+  EXPECT_EQ(second.triangle_count(), alone.triangle_count());
+  RandomPoints random(22);
+  for (int i = 0; i < 500; ++i) {
+    const Eigen::Vector3d p = random.InCube(0.6);
+    const Clearance got = second.Query(p, kFar), expected = alone.Query(p, kFar);
+    EXPECT_EQ(got.distance, expected.distance);
+    EXPECT_EQ(got.nearest, expected.nearest);
+    EXPECT_EQ(got.normal, expected.normal);
+    EXPECT_EQ(got.shape, expected.shape);
+    EXPECT_EQ(first.Query(p, kFar).shape, 0);
+  }
 }
 
 TEST(BodyMesh, ThreadsGetTheSameAnswers) {

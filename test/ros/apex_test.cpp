@@ -66,10 +66,14 @@ TEST(ApexGateTest, EachBoundCanFail) {
   EXPECT_EQ(violations([](ApexBounds* b) { b->min_clearance = 0.02; }), 1u);
   EXPECT_EQ(violations([](ApexBounds* b) { b->max_interval = 0.004; }), 1u);
   EXPECT_EQ(violations([](ApexBounds* b) { b->start = 3; }), 1u);
+  EXPECT_EQ(violations([](ApexBounds* b) { b->end = 1.9, b->max_interval = 0.006; }), 0u);
+  EXPECT_EQ(violations([](ApexBounds* b) { b->end = 2.1, b->max_interval = 0.006; }), 1u)
+      << "the run ended within the window";
   const auto rms = [](ApexBounds* b) { b->max_rms_difference = 1e-4; };
   EXPECT_EQ(violations(rms), 1u) << "nothing to compare with";
   EXPECT_EQ(violations(rms, messages), 0u);
   EXPECT_EQ(violations(rms, Swing(0.003, 10, 200, 2)), 1u);
+  EXPECT_EQ(violations(rms, Swing(0.002, 10, 200, 1)), 1u) << "half of the stamps are missing";
 }
 
 TEST(ApexGateTest, MissingBagIsAProblem) {

@@ -164,5 +164,45 @@ TEST(MotionTree, DropBeforeKeepsTheMotion) {
   }
 }
 
+TEST(MotionTree, FollowsAsItEvaluates) {
+  // The chain is composed from the other end: roundings of accelerations of some 100 m/s^2.
+  constexpr double kRounding = 1e-10;
+  MotionTree tree = MakeChain(1);
+  const auto expect_same = [&](const std::string& frame, double t) {
+    const Motion followed = tree.Follow("map", frame, t),
+                 evaluated = tree.Evaluate("map", frame, t);
+    EXPECT_LT((followed.X.p - evaluated.X.p).norm(), kRounding) << frame << " at " << t;
+    EXPECT_LT((followed.X.q.coeffs() - evaluated.X.q.coeffs()).norm(), kRounding);
+    EXPECT_LT((followed.v - evaluated.v).norm(), kRounding);
+    EXPECT_LT((followed.a - evaluated.a).norm(), kRounding);
+    EXPECT_LT((followed.omega - evaluated.omega).norm(), kRounding);
+    EXPECT_LT((followed.alpha - evaluated.alpha).norm(), kRounding);
+  };
+  // Forwards and backwards, past what is final, and at samples.
+  for (const double t : {0.0, 0.3, 0.301, 0.302, 0.35, 0.21, 0.503, 0.9, 0.99, 0.9901, 1.5, 0.5}) {
+    for (const char* frame : {"sensor", "body", "arm", "carrier", "map"}) expect_same(frame, t);
+  }
+  // What it remembers is of no use once samples are added or others take their place.
+  expect_same("carrier", 0.99);
+  tree.Append("arm", "carrier", 1.0, CarrierInArm(1.2));
+  expect_same("carrier", 0.99);
+  tree.Clear();
+  for (const double t : {0.2, 0.4, 0.6}) {
+    tree.Append("map", "body", t, BodyInMap(2 * t));
+    tree.Append("body", "arm", t, ArmInBody(2 * t));
+    tree.Append("arm", "carrier", t, CarrierInArm(2 * t));
+  }
+  expect_same("carrier", 0.5);
+}
+
+TEST(MotionTree, FollowIsIndependentOfItsPast) {
+  MotionTree each = MakeChain(1), some = MakeChain(1);
+  for (double t = 0.3; t < 0.7; t += 0.001) each.Follow("map", "sensor", t);
+  for (const double t : {0.44, 0.5, 0.52, 0.6}) {
+    EXPECT_EQ(each.Follow("map", "sensor", t).a, some.Follow("map", "sensor", t).a) << t;
+    EXPECT_EQ(each.Follow("map", "sensor", t).alpha, some.Follow("map", "sensor", t).alpha) << t;
+  }
+}
+
 }  // namespace
 }  // namespace cosserat_cable

@@ -20,6 +20,19 @@ struct Clearance {
   bool rim = false;        ///< `nearest` is on the border of an open mesh, where its sides meet
 };
 
+/// Lets bodies share what they make of equal meshes: a vehicle has four wheels, and one mesh of
+/// them. Needed while bodies are made, not after.
+class MeshStore {
+ public:
+  MeshStore();
+  ~MeshStore();
+
+ private:
+  friend class Body;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
 /// The shapes of one link. Immutable and safe to query from several threads at once.
 ///
 /// A mesh counts as closed where its triangles, connected over edges, share each edge by just two
@@ -27,9 +40,10 @@ struct Clearance {
 /// way the file has them: a cavity counts as solid), everything else is a two-sided shell.
 class Body {
  public:
+  /// `store`: meshes are looked up there first; null: this body shares none.
   /// @pre shapes are valid (LoadMesh reported no problem; sizes positive)
   /// @throws std::invalid_argument where they are not
-  explicit Body(const std::vector<Shape>& shapes);
+  explicit Body(const std::vector<Shape>& shapes, MeshStore* store = nullptr);
   ~Body();
   Body(Body&&) noexcept;
   Body& operator=(Body&&) noexcept;
@@ -41,8 +55,8 @@ class Body {
   /// answer is exact, however deep. Allocates nothing.
   Clearance Query(const Eigen::Vector3d& p_B, double reach) const;
 
-  /// A bound from the shapes' axis-aligned boxes alone [m]: the signed distance is no less. -inf
-  /// within a box.
+  /// A bound from simple solids around the shapes alone [m]: the signed distance is no less. -inf
+  /// within one.
   double LowerBound(const Eigen::Vector3d& p_B) const;
 
   /// Axis-aligned box that holds all shapes, in B. Empty where there are none.

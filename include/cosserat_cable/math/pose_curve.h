@@ -26,8 +26,10 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <vector>
 
+#include "cosserat_cable/math/motion_between.h"
 #include "cosserat_cable/math/pose.h"
 
 namespace cosserat_cable {
@@ -69,6 +71,10 @@ class PoseCurve {
   /// @pre !empty()
   Motion Evaluate(double time) const;
 
+  /// The same to the last bit; remembers the polynomials between two knots, which makes the next
+  /// times there cheap.
+  Motion Follow(double time);
+
   /// True where `time` lies between two samples farther apart than `max_gap`.
   bool InGap(double time) const;
   /// Number of gaps so far, dropped ones included.
@@ -102,6 +108,7 @@ class PoseCurve {
   void CountPeriod(double period);
   void SettleStart();
   int IntervalAt(double time) const;
+  MotionPiece PieceFrom(int knot, double start) const;
 
   double max_gap_;
   std::deque<Knot> knots_;
@@ -115,6 +122,13 @@ class PoseCurve {
   bool settled_ = false;         ///< enough periods are known to judge an interval
   int start_ = 0;  ///< while not settled: the first knot, or the first after the last gap
   std::size_t periods_before_start_ = 0;
+
+  /// Between two final knots, from the first up to before the second [s].
+  struct FollowedPiece {
+    double begin, end;
+    MotionPiece motion;
+  };
+  std::optional<FollowedPiece> followed_;
 };
 
 }  // namespace cosserat_cable

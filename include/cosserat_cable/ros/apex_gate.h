@@ -24,8 +24,9 @@ struct ApexBounds {
   double max_penetration = kNone;     ///< negative clearance at most so deep [m]
   double max_curvature = kNone;       ///< [1/m]
   double max_contact_force = kNone;   ///< [N]
-  double max_interval = kNone;        ///< between two messages [s]
-  double max_rms_difference = kNone;  ///< of positions from the comparison's, at equal stamps [m]
+  double max_interval = kNone;        ///< between two messages, and to the window's ends [s]
+  double max_rms_difference = kNone;  ///< of positions from the comparison's, at equal stamps,
+                                      ///< which must have them all [m]
 
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };

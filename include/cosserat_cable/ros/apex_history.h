@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <deque>
+#include <vector>
 
 namespace cosserat_cable {
 
@@ -14,7 +14,7 @@ class ApexHistory {
   explicit ApexHistory(std::int64_t window) : window_(window) {}  ///< [ns]
 
   void Add(std::int64_t time, const Eigen::Vector3d& position);
-  void Clear() { samples_.clear(); }
+  void Clear();
 
   /// Extent of the positions along their direction of largest variance [m]; 0 for fewer than two.
   double PeakToPeak() const;
@@ -25,7 +25,8 @@ class ApexHistory {
     Eigen::Vector3d position;
   };
   std::int64_t window_;
-  std::deque<Sample> samples_;
+  std::vector<Sample> samples_;
+  std::size_t first_ = 0;  // of the window, in samples_
 };
 
 }  // namespace cosserat_cable

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/cable/cable_fleet.h"
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/ros/link_motion.h"
 #include "cosserat_cable/ros/markers.h"
@@ -96,6 +97,8 @@ class CableEngine {
   LinkMotion links_;
   std::vector<Frame> frames_;
   std::vector<Cable> cables_;
+  std::unique_ptr<CableFleet> fleet_;        // of their simulations
+  std::vector<Surroundings> surroundings_;   // of the cables at the end of the step
 
   bool started_ = false;
   bool finished_ = false;

@@ -68,6 +68,8 @@ class LinkMotion {
   bool Range(std::int64_t* begin, std::int64_t* ready) const;
 
   Motion Evaluate(const std::string& link, std::int64_t time) const;
+  /// The same up to rounding; see MotionTree::Follow.
+  Motion Follow(const std::string& link, std::int64_t time);
   bool InGap(const std::string& link, std::int64_t time) const;
   /// Intervals longer than max_gap, over the edges that links depend on; also of runs before Clear.
   std::uint64_t gap_count() const;

@@ -4,8 +4,9 @@
 // 500 Hz do not have to share instants, and nothing is interpolated linearly on the way.
 #pragma once
 
-#include <map>
+#include <cstdint>
 #include <string>
+#include <unordered_map>
 
 #include "cosserat_cable/math/pose_curve.h"
 
@@ -56,6 +57,10 @@ class MotionTree {
   /// @pre Connected, and every edge between them has samples
   Motion Evaluate(const std::string& ancestor, const std::string& frame, double time) const;
 
+  /// The same up to rounding; remembers each edge's motion and each frame's, so that the frames of
+  /// a tree at one time, and times in small steps, are cheap.
+  Motion Follow(const std::string& ancestor, const std::string& frame, double time);
+
   /// True where a moving edge between the two is in a gap at `time` [s].
   bool InGap(const std::string& ancestor, const std::string& frame, double time) const;
   /// Gaps so far, over all edges.
@@ -66,7 +71,7 @@ class MotionTree {
   void DropBefore(double time);
 
  private:
-  /// A frame with the edge to its parent. Nodes of a std::map stay where they are.
+  /// A frame with the edge to its parent. Nodes of an unordered_map stay where they are.
   struct Frame {
     explicit Frame(double max_gap) : curve(max_gap) {}
 
@@ -74,16 +79,26 @@ class MotionTree {
     bool fixed = false;
     Pose X_PC;        ///< of a fixed edge
     PoseCurve curve;  ///< of a moving edge
+
+    /// The last answer of Follow.
+    struct Followed {
+      const Frame* top = nullptr;  ///< null: none
+      double time = 0;
+      std::uint64_t revision = 0;
+      Motion motion;  ///< as seen from `top`
+    } followed;
   };
 
   const Frame* Find(const std::string& name) const;
+  const Motion& FollowBelow(const Frame* top, Frame* frame, double time);
   Frame* Attach(const std::string& parent, const std::string& child);
   /// Calls `visit(const PoseCurve&)` for each moving edge; false if the two are not connected.
   template <class Visit>
   bool VisitCurves(const std::string& ancestor, const std::string& frame, const Visit& visit) const;
 
   double max_gap_;
-  std::map<std::string, Frame> frames_;
+  std::uint64_t revision_ = 0;  ///< changes with everything that Follow depends on
+  std::unordered_map<std::string, Frame> frames_;
 };
 
 }  // namespace cosserat_cable

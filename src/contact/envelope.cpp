@@ -1,0 +1,80 @@
+#include "envelope.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cosserat_cable {
+namespace {
+
+Eigen::Vector2d Across(const Eigen::Vector3d& p, int axis) {
+  return {p[(axis + 1) % 3], p[(axis + 2) % 3]};
+}
+
+double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+double OriginToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double square = along.squaredNorm();
+  const double t = square > 0 ? std::clamp(-a.dot(along) / square, 0.0, 1.0) : 0.0;
+  return (a + t * along).norm();
+}
+
+double OriginToTriangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
+                        const Eigen::Vector2d& c) {
+  const double ab = Cross(a, b), bc = Cross(b, c), ca = Cross(c, a);
+  const bool inside = (ab >= 0 && bc >= 0 && ca >= 0) || (ab <= 0 && bc <= 0 && ca <= 0);
+  if (inside) return 0;
+  return std::min({OriginToSegment(a, b), OriginToSegment(b, c), OriginToSegment(c, a)});
+}
+
+struct Radii {
+  double inner = std::numeric_limits<double>::infinity(), outer = 0;
+};
+
+Radii RadiiAbout(int axis, const TriangleMesh& mesh) {
+  Radii radii;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    const Eigen::Vector2d a = Across(mesh.vertices[t[0]], axis);
+    const Eigen::Vector2d b = Across(mesh.vertices[t[1]], axis);
+    const Eigen::Vector2d c = Across(mesh.vertices[t[2]], axis);
+    radii.inner = std::min(radii.inner, OriginToTriangle(a, b, c));
+    radii.outer = std::max({radii.outer, a.norm(), b.norm(), c.norm()});
+  }
+  return radii;
+}
+
+}  // namespace
+
+Envelope::Envelope(const Eigen::AlignedBox3d& box) : box_(box) {
+  outer_ = Across(box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()), axis_).norm();
+}
+
+Envelope::Envelope(const TriangleMesh& mesh) {
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    for (int i : t) box_.extend(mesh.vertices[i]);
+  }
+  double least_volume = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    const Radii radii = RadiiAbout(axis, mesh);
+    // No surface within the inner radius, which reaches to infinity: no solid either.
+    const double volume =
+        (radii.outer * radii.outer - radii.inner * radii.inner) * box_.sizes()[axis];
+    if (volume >= least_volume) continue;
+    least_volume = volume;
+    axis_ = axis;
+    inner_ = radii.inner;
+    outer_ = radii.outer;
+  }
+}
+
+double Envelope::Distance(const Eigen::Vector3d& p) const {
+  const double radius = Across(p, axis_).norm();
+  const double radial = std::max({radius - outer_, inner_ - radius, 0.0});
+  const double along = std::max({box_.min()[axis_] - p[axis_], p[axis_] - box_.max()[axis_], 0.0});
+  return std::sqrt(std::max(radial * radial + along * along, box_.squaredExteriorDistance(p)));
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,28 @@
+// Meshes made ready for queries, each once however many links show it.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cosserat_cable/contact/body.h"
+#include "mesh_part.h"
+
+namespace cosserat_cable {
+
+using MeshParts = std::vector<std::shared_ptr<const MeshPart>>;
+
+/// @throws std::invalid_argument where the mesh is not valid
+MeshParts MakeMeshParts(const TriangleMesh& mesh);
+
+struct MeshStore::Impl {
+  /// The parts of a mesh with the same numbers, or new ones.
+  const MeshParts& PartsOf(const TriangleMesh& mesh);
+
+  struct Entry {
+    TriangleMesh mesh;
+    MeshParts parts;
+  };
+  std::vector<Entry> entries;
+};
+
+}  // namespace cosserat_cable
