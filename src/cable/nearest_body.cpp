@@ -8,7 +8,7 @@ namespace {
 
 // Beyond what is the nearest now, how far a pair's distance is still told apart: it may move by so
 // much before it is asked again [m].
-constexpr double kAhead = 5e-3;
+constexpr double kAhead = 2e-3;
 
 }  // namespace
 
