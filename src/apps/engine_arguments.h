@@ -26,7 +26,8 @@ inline void AddInputArguments(CLI::App* app, InputPaths* paths, EngineOptions* e
 
 /// Parses; false where the program is to end with `code`.
 inline bool Parse(CLI::App* app, int argc, char** argv, int* code) {
-  // roslaunch appends __name:=... and __log:=... to every program, also to those that need no master.
+  // roslaunch appends __name:=... and __log:=... to every program, also to those that need no
+  // master.
   std::vector<std::string> arguments;
   for (int i = argc - 1; i > 0; --i) {  // CLI11 takes them in reverse
     const std::string argument = argv[i];

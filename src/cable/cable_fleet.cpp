@@ -26,6 +26,8 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
   std::map<int, std::vector<std::size_t>> by_elements;
   for (std::size_t i = 0; i < cables.size(); ++i)
     by_elements[cables[i]->model().elements].push_back(i);
+  impl_->groups.reserve(cables.size());  // batches stay where they are while others share with them
+  const rod::RodBatch* last_batch = nullptr;
   for (const auto& [elements, members] : by_elements)
     for (std::size_t first = 0; first < members.size(); first += rod::RodBatch::kMaxRods) {
       const std::size_t last = std::min(members.size(), first + rod::RodBatch::kMaxRods);
@@ -34,9 +36,10 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
       if (group.members.size() > 1) {
         std::vector<rod::Rod*> rods;
         for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
-        group.batch.emplace(rods);
+        group.batch.emplace(rods, last_batch);
       }
       impl_->groups.push_back(std::move(group));
+      if (impl_->groups.back().batch) last_batch = &*impl_->groups.back().batch;
     }
 }
 CableFleet::~CableFleet() = default;

@@ -8,18 +8,10 @@
 
 namespace cosserat_cable::rod {
 struct RodBatch::Impl {
-  explicit Impl(const std::vector<Rod*>& all) : rods(all), w(all.front()->elements()) {
-    // Lanes without a rod repeat the first one's and are never active.
-    for (int l = 0; l < kMaxRods; ++l) {
-      const StepWorkspace<double>& from = OfLane(l).w;
-      for (int i = 0; i < w.count; ++i) {
-        SetLane(&w.mass[i], l, from.mass[i]);
-        SetLane(&w.inertia[i], l, from.inertia[i]);
-      }
-      SetLane(&w.gravity, l, from.gravity);
-    }
-  }
+  Impl(const std::vector<Rod*>& all, std::shared_ptr<StepWorkspace<Lanes>> memory)
+      : rods(all), workspace(std::move(memory)), w(*workspace) {}
 
+  // Lanes without a rod repeat the first one's and are never active.
   Rod::Impl& OfLane(int lane) {
     return *rods[lane < static_cast<int>(rods.size()) ? lane : 0]->impl_;
   }
@@ -27,7 +19,10 @@ struct RodBatch::Impl {
   /// State and law of a rod into its lane.
   void Gather(int lane, double dt) {
     Rod::Impl& rod = OfLane(lane);
+    SetLane(&w.gravity, lane, rod.w.gravity);
     for (int i = 0; i < w.count; ++i) {
+      SetLane(&w.mass[i], lane, rod.w.mass[i]);
+      SetLane(&w.inertia[i], lane, rod.w.inertia[i]);
       SetLane(&w.node[i], lane, rod.w.node[i]);
       SetLane(&w.rate[i], lane, rod.w.rate[i]);
       SetLane(&w.algorithm[i], lane, rod.w.algorithm[i]);
@@ -54,10 +49,11 @@ struct RodBatch::Impl {
   }
 
   std::vector<Rod*> rods;
-  StepWorkspace<Lanes> w;
+  std::shared_ptr<StepWorkspace<Lanes>> workspace;
+  StepWorkspace<Lanes>& w;
 };
 
-RodBatch::RodBatch(const std::vector<Rod*>& rods) {
+RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
   if (rods.empty() || rods.size() > kMaxRods)
     throw std::invalid_argument("a batch has one to four rods");
   for (const Rod* rod : rods)
@@ -65,7 +61,11 @@ RodBatch::RodBatch(const std::vector<Rod*>& rods) {
         rod->model().held_a != rods.front()->model().held_a ||
         rod->model().held_b != rods.front()->model().held_b)
       throw std::invalid_argument("rods of a batch have equal elements and held ends");
-  impl_ = std::make_unique<Impl>(rods);
+  const int elements = rods.front()->elements();
+  auto memory = sharing && sharing->impl_->w.count == elements + 1
+                    ? sharing->impl_->workspace
+                    : std::make_shared<StepWorkspace<Lanes>>(elements);
+  impl_ = std::make_unique<Impl>(rods, std::move(memory));
 }
 RodBatch::~RodBatch() = default;
 RodBatch::RodBatch(RodBatch&&) noexcept = default;

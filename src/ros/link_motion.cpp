@@ -98,7 +98,7 @@ bool LinkMotion::AcceptSource(const std::string& parent, const std::string& chil
     UpdateTree();
     return true;
   }
-  const Edge& edge = found->second;
+  Edge& edge = found->second;
   if (edge.parent != parent) {
     warnings_.Count("frame '" + child + "' has two parents",
                     "'" + edge.parent + "' by " + ToString(edge.source) + " is kept, '" + parent +
@@ -108,6 +108,13 @@ bool LinkMotion::AcceptSource(const std::string& parent, const std::string& chil
   if (edge.source == source) return true;
   // What was measured and fixed for this vehicle is better than its drawing.
   if (edge.source == Source::kUrdf && source == Source::kTfStatic) return true;
+  // A joint's state and what robot_state_publisher makes of it are one motion: the state itself
+  // counts.
+  if (edge.source == Source::kTf && source == Source::kJointStates) {
+    edge.source = source;
+    return true;
+  }
+  if (edge.source == Source::kJointStates && source == Source::kTf) return false;
   warnings_.Count(
       "frame '" + child + "' comes from two sources",
       std::string(ToString(edge.source)) + " is kept, " + ToString(source) + " is ignored");

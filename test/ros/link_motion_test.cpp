@@ -126,14 +126,16 @@ TEST_F(LinkMotionTest, WorldFrameThatIsNowhereIsMissing) {
   EXPECT_NE(links.Missing()[0].find("'map'"), std::string::npos);
 }
 
-TEST_F(LinkMotionTest, FirstSourceOfAnEdgeStays) {
+TEST_F(LinkMotionTest, AJointsStateCountsMoreThanTheTransformMadeOfIt) {
   LinkMotion links(vehicle_, needed_, options_);
   links.Ingest(Transform("base", "strut", kStart, Pose()), false);
-  Drive(&links, kStart, 30);
   EXPECT_EQ(links.edges().at("strut").source, LinkMotion::Source::kTf);
-  EXPECT_EQ(links.edges().at("strut").samples, 1u);
-  EXPECT_EQ(links.warnings().counts().at("frame 'strut' comes from two sources"), 30u);
-  EXPECT_EQ(links.edges().at("arm").source, LinkMotion::Source::kJointStates);
+  Drive(&links, kStart, 30);
+  EXPECT_EQ(links.edges().at("strut").source, LinkMotion::Source::kJointStates);
+  EXPECT_EQ(links.edges().at("strut").samples, 30u);  // the first one had the transform's stamp
+  links.Ingest(Transform("base", "strut", kStart + 10'000'000'000, Pose()), false);
+  EXPECT_EQ(links.edges().at("strut").samples, 30u);
+  EXPECT_EQ(links.warnings().counts().count("frame 'strut' comes from two sources"), 0u);
 }
 
 TEST_F(LinkMotionTest, TimeRunningBackwardsForgetsTheSamples) {

@@ -23,8 +23,10 @@ class RodBatch {
  public:
   static constexpr int kMaxRods = 4;
 
+  /// `sharing`: a batch whose working memory this one uses as well, where both have the same number
+  /// of elements: batches that are stepped in turn then fit into the cache together.
   /// @throws std::invalid_argument where the rods do not fit together
-  explicit RodBatch(const std::vector<Rod*>& rods);
+  explicit RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing = nullptr);
   ~RodBatch();
   RodBatch(RodBatch&&) noexcept;
   RodBatch& operator=(RodBatch&&) noexcept;
