@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/cable_cases.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -15,20 +17,8 @@ const Vector3d kGravity(0, 0, -9.81);
 
 /// Hoses of several lengths hanging in a U over a floor that the longest touches.
 CableModel Hose(int k, int elements) {
-  CableModel m;
-  m.length = 0.36 + 0.02 * k;
+  CableModel m = RoundCableModel(0.36 + 0.02 * k, 0.01, 0.12, 0.03 + 0.01 * k, 0.028, 1e-4);
   m.elements = elements;
-  m.diameter = 0.01;
-  m.mass_per_length = 0.12;
-  m.EI1 = m.EI2 = 0.03 + 0.01 * k;
-  m.GJ = 0.028;
-  m.EA = 16 * m.EI1 / 1e-4;
-  m.GA1 = m.GA2 = m.EA / 3;
-  m.eta_EI1 = m.eta_EI2 = 1e-4;
-  m.eta_GJ = 5e-5;
-  m.eta_EA = 20;
-  m.eta_GA1 = m.eta_GA2 = 0.1;
-  m.apex_s = 0.5 * m.length;
   return m;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cable/cable_cases.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -13,23 +15,7 @@ using Eigen::Vector3d;
 const Vector3d kGravity(0, 0, -9.81);
 
 /// A hose hanging in a U between two clamps that face down and up, 0.2 m apart.
-CableModel Hose() {
-  CableModel m;
-  m.name = "hose";
-  m.length = 0.4;
-  m.diameter = 0.01;
-  m.mass_per_length = 0.12;
-  m.EI1 = m.EI2 = 0.035;
-  m.GJ = 0.028;
-  m.EA = 16 * 0.035 / 1e-4;
-  m.GA1 = m.GA2 = m.EA / 3;
-  m.eta_EI1 = m.eta_EI2 = 1e-4;
-  m.eta_GJ = 5e-5;
-  m.eta_EA = 4 * 0.4 / M_PI * std::sqrt(0.12 * m.EA);
-  m.eta_GA1 = m.eta_GA2 = 2 * std::sqrt(m.rhoI() * m.GA1);
-  m.apex_s = 0.2;
-  return m;
-}
+CableModel Hose() { return RoundCableModel(0.4, 0.01, 0.12, 0.035, 0.028, 1e-4); }
 
 Surroundings HoseClamps() {
   Surroundings s;

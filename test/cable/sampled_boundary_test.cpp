@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "cable/cable_cases.h"
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/math/pose_curve.h"
 
@@ -16,22 +17,7 @@ constexpr double kFrequency = 30, kAmplitude = 2e-3, kSampleRate = 100;  // Hz, 
 constexpr double kDt = 1e-3, kBegin = 0.5, kEnd = 1.5;                   // s; compared in between
 
 /// The arch of the swept body, cable P2.
-CableModel Arch() {
-  CableModel m;
-  m.length = 0.2;
-  m.diameter = 0.008;
-  m.mass_per_length = 0.15;
-  m.EI1 = m.EI2 = 0.0080;
-  m.GJ = 0.75 * m.EI1;
-  m.EA = 16 * m.EI1 / 6.4e-5;
-  m.GA1 = m.GA2 = m.EA / 3;
-  m.eta_EI1 = m.eta_EI2 = 1e-4;
-  m.eta_GJ = 5e-5;
-  m.eta_EA = 4 * 0.2 / M_PI * std::sqrt(0.15 * m.EA);
-  m.eta_GA1 = m.eta_GA2 = 2 * std::sqrt(m.rhoI() * m.GA1);
-  m.apex_s = 0.1;
-  return m;
-}
+CableModel Arch() { return RoundCableModel(0.2, 0.008, 0.15, 0.0080, 0.0060, 1e-4); }
 
 Motion Analytic(double t) {
   const double w = 2 * M_PI * kFrequency;
