@@ -140,8 +140,9 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
   const std::string folder = std::filesystem::absolute(paths.vehicle).parent_path().string();
   inputs.vehicle = LoadVehicle(paths.vehicle, {avoided.begin(), avoided.end()},
                                FindPackagesFrom(folder), &vehicle_problems);
-  if (cable_problems.empty() && !inputs.vehicle.links.empty()) {
+  if (!inputs.vehicle.links.empty()) {
     CheckAgainstVehicle(inputs.cables, inputs.vehicle.links, &cable_problems);
+    cable_problems.SortByLine();
   }
   for (const std::string& joint : options.links.held_joints) {
     if (vehicle_problems.empty() && inputs.vehicle.FindJoint(joint) == nullptr) {

@@ -146,6 +146,10 @@ class CommandLine(unittest.TestCase):
     def test_link_not_in_vehicle(self):
         self.refused("bdy", "body", cables=self.cables(('b: {link: body', 'b: {link: bdy')))
 
+    def test_links_are_checked_beside_other_mistakes(self):
+        self.refused('lenght', "bdy", cables=self.cables(('length:', 'lenght:'),
+                                                         ('b: {link: body', 'b: {link: bdy')))
+
     def test_clamps_too_far_apart(self):
         self.refused('cables.yaml', cables=self.cables(('length: 0.200', 'length: 0.090')))
 
