@@ -1,5 +1,12 @@
 # The ROS room: messages, the cosserat_cable_ros library, one executable per src/apps/*.cpp.
 
+# catkin keeps the environment of the tests as it is when the project is configured, and leaves folders
+# out that are not there yet: without this, a first build's tests do not find the messages' Python.
+if(NOT DEFINED CATKIN_DEVEL_PREFIX)
+  file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages)
+else()
+  file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/python3/dist-packages)
+endif()
 find_package(catkin REQUIRED COMPONENTS
   diagnostic_msgs
   geometry_msgs
