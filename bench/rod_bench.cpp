@@ -43,21 +43,16 @@ Rod Settled(const RodModel& model) {
   return rod;
 }
 
-Motion Swept(const Pose& clamp, int step) {
+Pose Swept(Pose clamp, int step) {
   constexpr double kAmplitude = 1.5e-3;  // m
   const double t = step % kStepsOfSweep * kDt;
-  const double phase = 2 * M_PI * (10 * t + 2 * t * t), rate = 2 * M_PI * (10 + 4 * t);
-  const Vector3d& axis = Vector3d::UnitX();
-  Motion motion = Motion::Resting(clamp);
-  motion.X.p += kAmplitude * std::sin(phase) * axis;
-  motion.v = kAmplitude * rate * std::cos(phase) * axis;
-  motion.a = kAmplitude * (8 * M_PI * std::cos(phase) - rate * rate * std::sin(phase)) * axis;
-  return motion;
+  clamp.p.x() += kAmplitude * std::sin(2 * M_PI * (10 * t + 2 * t * t));
+  return clamp;
 }
 
-/// Motions of both clamps over the sweep: what they cost is not the rod's.
+/// Poses of both clamps over the sweep: what they cost is not the rod's.
 struct Drive {
-  std::vector<Motion> a, b;
+  std::vector<Pose> a, b;
 
   Drive() {
     for (int s = 0; s < kStepsOfSweep; ++s) {

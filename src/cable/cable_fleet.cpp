@@ -64,7 +64,7 @@ std::vector<StepOutcome> CableFleet::Step(double dt, const std::vector<const Sur
       }
       CableSimulation::Impl& cable = *impl_->cables[i]->impl_;
       cable.SearchContact(dt, *then[i]);
-      drives[k] = {&then[i]->a, &then[i]->b, cable.load()};
+      drives[k] = {&then[i]->a.X, &then[i]->b.X, cable.load()};
     }
     const std::vector<rod::SolveReport> reports = group.batch->Step(dt, drives);
     for (std::size_t k = 0; k < drives.size(); ++k) {

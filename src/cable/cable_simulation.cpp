@@ -28,7 +28,7 @@ rod::RodModel MakeRodModel(const CableModel& cable, const Eigen::Vector3d& gravi
   section.V_M = {cable.eta_EI1, cable.eta_EI2, cable.eta_GJ};
   section.rhoA = cable.mass_per_length;
   section.rhoJ = {cable.rhoI(), cable.rhoI(), cable.rhoJ()};
-  for (const LumpedMass& m : cable.masses) rod.masses.push_back({m.s, m.mass});
+  for (const LumpedMass& m : cable.masses) rod.bodies.push_back({m.s, m.mass, Eigen::Vector3d::Zero()});
   return rod;
 }
 
@@ -125,7 +125,7 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
   m.TakePositions();
   m.contact.Search(m.positions, now.obstacles);
   m.contact.Accept();
-  m.rod.AddRigidMotion(now.a.X.p, now.a.v, now.a.X.q * now.a.omega);
+  m.rod.AddRigidMotion(now.a);
   m.UpdateNodes();
   outcome.ok = true;
   return outcome;
@@ -135,7 +135,7 @@ StepOutcome CableSimulation::Step(double dt, const Surroundings& then) {
   Impl& m = *impl_;
   if (!IsFinite(then)) return RefuseNonFinite();
   m.SearchContact(dt, then);
-  const rod::SolveReport report = m.rod.Step(dt, then.a, then.b, m.load());
+  const rod::SolveReport report = m.rod.Step(dt, then.a.X, then.b.X, m.load());
   if (!report.converged) return m.StepInParts(dt, then, report.iterations);
   m.Accept(then);
   StepOutcome outcome;
@@ -157,7 +157,7 @@ StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& th
     const double part = last ? dt - done : step;
     const Surroundings next = last ? then : Between(now, then, dt, done + step);
     SearchContact(part, next);
-    const rod::SolveReport report = rod.Step(part, next.a, next.b, load());
+    const rod::SolveReport report = rod.Step(part, next.a.X, next.b.X, load());
     outcome.iterations += report.iterations;
     if (report.converged) {
       contact.Accept();

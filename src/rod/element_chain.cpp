@@ -128,7 +128,8 @@ ElementStress ElementChain<T>::Stress(int element, int lane) const {
   const bool one = kLaneCount<T> == 1;
   const ElementState<Lanes>& e = states_[one ? element / kLanes : element];
   const int l = one ? element % kLanes : lane;
-  return {Lane(e.gamma, l), Lane(e.gamma_dot, l), Lane(e.kappa, l), Lane(e.n, l), Lane(e.m, l)};
+  return {Lane(e.gamma, l),     Lane(e.gamma_dot, l), Lane(e.kappa, l),
+          Lane(e.kappa_dot, l), Lane(e.n, l),         Lane(e.m, l)};
 }
 
 template <>

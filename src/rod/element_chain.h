@@ -12,7 +12,7 @@ namespace cosserat_cable::rod {
 /// What is known of an element after Evaluate.
 struct ElementStress {
   Vec3<double> gamma, gamma_dot;  ///< [1], [1/s]
-  Vec3<double> kappa;             ///< [1/m]
+  Vec3<double> kappa, kappa_dot;  ///< [1/m], [1/(m s)]
   Vec3<double> n, m;              ///< [N], [N m], section axes
 };
 

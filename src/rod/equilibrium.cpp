@@ -28,7 +28,15 @@ SolveReport Rod::Equilibrate(const Load* load) {
   Impl& m = *impl_;
   const int first = m.first_free(), last = m.last_free();
   for (NodeState& n : m.w.node) n.v = n.omega = V3{};
+  for (EndPart* end : {&m.end_a, &m.end_b}) end->Start(Motion::Resting(end->clamp().X));
   m.w.trial = m.w.node;
+  const LaneEnds ends = m.ends();
+  const auto hold_ends = [&] {
+    ends.ForEach(m.w.count, [&](const EndPart& end, int i) { end.ImposePose(&m.w.trial[i]); });
+  };
+  if (m.model.a.clamped()) m.end_a.ImposePose(&m.w.trial.front());
+  if (m.model.b.clamped()) m.end_b.ImposePose(&m.w.trial.back());
+  hold_ends();
   m.PrepareStatics();
 
   const double bending = std::min(m.w.law.C_M.x, m.w.law.C_M.y);
@@ -38,12 +46,14 @@ SolveReport Rod::Equilibrate(const Load* load) {
   const LaneView<double> view(&m.w, 0);
   double noise = 0;
   const auto energy = [&] {
-    const double strain = m.StrainEnergy(), gravity = m.GravityEnergy(m.w.trial);
+    const double strain = m.StaticEnergy(), gravity = m.GravityEnergy(m.w.trial);
     const double outside = load ? load->Energy(view) : 0.0;
     noise = kEnergyNoise * (strain + std::abs(gravity) + std::abs(outside));
     return strain + gravity + outside;
   };
 
+  // Without a potential there is nothing to descend: plain Newton, its steps bounded.
+  const bool descends = !load || load->HasPotential();
   SolveReport report;
   double shift = 0;
   EvaluateForces(&m.w);
@@ -58,6 +68,7 @@ SolveReport Rod::Equilibrate(const Load* load) {
       m.w.rhs = internal;
       AssembleTangent(0.0, &m.w);
       if (load) AddLoad(*load, 0, true, 0.0, &m.w);
+      ConstrainEnds(ends, 0, true, 0.0, &m.w);
       for (int i = first; i <= last; ++i)
         for (int k = 0; k < 3; ++k) {
           m.w.system.diagonal(i)[k][k] += shift * translation_scale;
@@ -65,7 +76,7 @@ SolveReport Rod::Equilibrate(const Load* load) {
         }
       double pivot;
       Factorise(first, last, &m.w, &pivot);
-      if (pivot > 0) break;
+      if (pivot > 0 || !descends) break;
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
     }
@@ -92,9 +103,10 @@ SolveReport Rod::Equilibrate(const Load* load) {
         m.w.trial[i].r = start[i].r + fraction * V3{d[0], d[1], d[2]};
         m.w.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
       }
+      hold_ends();
       EvaluateForces(&m.w);
       const double next = energy();
-      accepted = next <= current + kSufficientDecrease * fraction * slope + noise;
+      accepted = !descends || next <= current + kSufficientDecrease * fraction * slope + noise;
       if (accepted) current = next;
     }
     if (!accepted) {
@@ -115,7 +127,8 @@ SolveReport Rod::Equilibrate(const Load* load) {
 
   // At the clamps, what is left of the forces is what they must supply.
   if (load) AddLoad(*load, 0, false, 0.0, &m.w);
-  m.TakeIterate(true);
+  m.TakeStresses(m.w, 0, true);
+  m.energy.Close();
   m.w.node = m.w.trial;
   std::fill(m.w.rate.begin(), m.w.rate.end(), NodeRates<double>{});
   std::fill(m.w.algorithm.begin(), m.w.algorithm.end(), NodeRates<double>{});

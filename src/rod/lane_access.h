@@ -1,6 +1,8 @@
 // What belongs to one lane of the kernel's types, in and out.
 #pragma once
 
+#include <Eigen/Core>
+
 #include "step_workspace.h"
 
 namespace cosserat_cable::rod {
@@ -17,6 +19,14 @@ void SetLane(Vec3<T>* v, int lane, const Vec3<double>& value) {
   SetLane(&v->x, lane, value.x);
   SetLane(&v->y, lane, value.y);
   SetLane(&v->z, lane, value.z);
+}
+
+inline Quat<double> GetLane(const Quat<double>& q, int) { return q; }
+inline Node<double> GetLane(const Node<double>& node, int) { return node; }
+inline void SetLane(Node<double>* node, int, const Node<double>& value) { *node = value; }
+inline NodeRates<double> GetLane(const NodeRates<double>& rates, int) { return rates; }
+inline void SetLane(NodeRates<double>* rates, int, const NodeRates<double>& value) {
+  *rates = value;
 }
 
 inline Quat<double> GetLane(const Quat<Lanes>& q, int lane) {
@@ -61,6 +71,24 @@ template <class T>
 Vec6<double> GetLane(const Vec6<T>& v, int lane) {
   return {{GetLane(v[0], lane), GetLane(v[1], lane), GetLane(v[2], lane), GetLane(v[3], lane),
            GetLane(v[4], lane), GetLane(v[5], lane)}};
+}
+template <class T>
+void SetLane(Vec6<T>* v, int lane, const Vec6<double>& value) {
+  for (int k = 0; k < 6; ++k) SetLane(&(*v)[k], lane, value[k]);
+}
+
+/// A block as a matrix, and back.
+template <class T>
+Eigen::Matrix<double, 6, 6> GetLane(const Block6<T>& block, int lane) {
+  Eigen::Matrix<double, 6, 6> matrix;
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c) matrix(r, c) = GetLane(block[r][c], lane);
+  return matrix;
+}
+template <class T>
+void SetLane(Block6<T>* block, int lane, const Eigen::Matrix<double, 6, 6>& matrix) {
+  for (int r = 0; r < 6; ++r)
+    for (int c = 0; c < 6; ++c) SetLane(&(*block)[r][c], lane, matrix(r, c));
 }
 
 }  // namespace cosserat_cable::rod

@@ -33,51 +33,87 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
     m.w.rate[i] = m.w.algorithm[i] = NodeRates<double>{};
   }
   m.w.trial = m.w.node;
+  m.end_a.Start(Motion::Resting(nodes.front()));
+  m.end_b.Start(Motion::Resting(nodes.back()));
   m.PrepareStatics();
   EvaluateForces(&m.w);
-  m.TakeIterate(true);
+  m.TakeStresses(m.w, 0, true);
+  m.energy.Close();
 }
 
-void Rod::AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
-                         const Eigen::Vector3d& omega) {
-  for (NodeState& n : impl_->w.node) {
-    n.v += ToSmall(v + omega.cross(ToEigen(n.r) - p));
-    n.omega += ToSmall(ToEigen(n.q).conjugate() * omega);
+void Rod::SetClamps(const Pose& a, const Pose& b) {
+  impl_->end_a.Start(Motion::Resting(a));
+  impl_->end_b.Start(Motion::Resting(b));
+}
+
+void Rod::AddRigidMotion(const Motion& frame) {
+  const Eigen::Matrix3d R = frame.X.q.toRotationMatrix();
+  const Eigen::Vector3d omega = R * frame.omega, alpha = R * frame.alpha;
+  const auto add = [&](const Pose& at, Motion* motion) {
+    const Eigen::Vector3d d = at.p - frame.X.p;
+    motion->v += frame.v + omega.cross(d);
+    motion->a += frame.a + alpha.cross(d) + omega.cross(omega.cross(d));
+    motion->omega += at.q.conjugate() * omega;
+    motion->alpha += at.q.conjugate() * alpha;
+  };
+  for (int i = 0; i < impl_->w.count; ++i) {
+    Motion added;
+    add(pose(i), &added);
+    NodeState& n = impl_->w.node[i];
+    n.v += ToSmall(added.v);
+    n.omega += ToSmall(added.omega);
+    for (NodeRates<double>* rates : {&impl_->w.rate[i], &impl_->w.algorithm[i]}) {
+      rates->v += ToSmall(added.a);
+      rates->omega += ToSmall(added.alpha);
+    }
+  }
+  for (EndPart* end : {&impl_->end_a, &impl_->end_b}) {
+    Motion clamp = end->clamp();
+    add(clamp.X, &clamp);
+    end->Start(clamp);
   }
 }
 
-SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* load) {
+SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load) {
   Impl& m = *impl_;
   m.w.law = m.LawOfStep(dt);
   for (int e = 0; e < m.model.elements; ++e) {
-    const ElementOffset<double> offset = m.Offset(e);
-    m.w.chain.SetOffset(e, 0, offset.F, offset.M);
+    const SectionValue offset = m.Offset(e);
+    m.w.chain.SetOffset(e, 0, ToSmall(offset.F), ToSmall(offset.M));
   }
-  m.HoldEnds(a, b);
-  SolveReport report;
-  const bool active = true;
-  SolveStep(StepCoefficients(dt), m.first_free(), m.last_free(), &m.model.length, &load, &active,
-            &m.w, &report);
-  if (!report.converged) return report;
-  m.TakeIterate(false);
+  const StepCoefficients c(dt);
+  m.MoveEnds(c, a, b);
+  LaneTask task;
+  task.active = true;
+  task.length = m.model.length;
+  task.load = load;
+  task.ends = m.ends();
+  SolveStep(c, m.first_free(), m.last_free(), &m.w, &task);
+  if (!task.report.converged) {
+    m.TakeBackEnds();
+    return task.report;
+  }
+  m.TakeStresses(m.w, 0, false);
   for (NodeState& n : m.w.trial) n.q = Normalized(n.q);  // rounding would add up over many steps
   std::swap(m.w.node, m.w.trial);
   std::swap(m.w.rate, m.w.trial_rate);
   std::swap(m.w.algorithm, m.w.trial_algorithm);
-  return report;
+  m.AccountForStep(dt, task.load_power);
+  return task.report;
 }
 
-void Rod::Predict(double dt, const Motion& a, const Motion& b,
+void Rod::Predict(double dt, const Pose& a, const Pose& b,
                   std::vector<Eigen::Vector3d>* positions) const {
   const Impl& m = *impl_;
   positions->resize(m.w.count);
   for (int i = 0; i < m.w.count; ++i) (*positions)[i] = ToEigen(m.w.node[i].r + dt * m.w.node[i].v);
-  if (m.model.held_a) positions->front() = a.X.p;
-  if (m.model.held_b) positions->back() = b.X.p;
+  if (m.model.a.clamped()) positions->front() = a.p;
+  if (m.model.b.clamped()) positions->back() = b.p;
 }
 
 V3 Rod::position(int i) const { return impl_->w.node[i].r; }
 V3 Rod::velocity(int i) const { return impl_->w.node[i].v; }
+Quat<double> Rod::orientation(int i) const { return impl_->w.node[i].q; }
 Pose Rod::pose(int i) const { return {ToEigen(impl_->w.node[i].r), ToEigen(impl_->w.node[i].q)}; }
 Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->w.node[i].omega); }
 Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->w.rate[i].v); }
@@ -91,17 +127,5 @@ Wrench Rod::reaction_a() const {
 Wrench Rod::reaction_b() const {
   return ClampWrench(impl_->missing_b, ToEigen(impl_->w.node.back().q));
 }
-
-double Rod::kinetic_energy() const {
-  double energy = 0;
-  for (int i = 0; i < impl_->w.count; ++i) {
-    const NodeState& n = impl_->w.node[i];
-    energy += 0.5 * (impl_->w.mass[i] * Dot(n.v, n.v) +
-                     Dot(n.omega, Scale(impl_->w.inertia[i], n.omega)));
-  }
-  return energy;
-}
-double Rod::elastic_energy() const { return impl_->StrainEnergy(); }
-double Rod::gravity_energy() const { return impl_->GravityEnergy(impl_->w.node); }
 
 }  // namespace cosserat_cable::rod

@@ -29,8 +29,8 @@ struct RodBatch::Impl {
     }
     SetLane(&w.law, lane, rod.LawOfStep(dt));
     for (int e = 0; e < w.count - 1; ++e) {
-      const ElementOffset<double> offset = rod.Offset(e);
-      w.chain.SetOffset(e, lane, offset.F, offset.M);
+      const SectionValue offset = rod.Offset(e);
+      w.chain.SetOffset(e, lane, ToSmall(offset.F), ToSmall(offset.M));
     }
     for (int end : {0, w.count - 1}) {
       SetLane(&w.trial[end], lane, rod.w.trial[end]);
@@ -61,9 +61,9 @@ RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
     throw std::invalid_argument("a batch has one to four rods");
   for (const Rod* rod : rods)
     if (rod->elements() != rods.front()->elements() ||
-        rod->model().held_a != rods.front()->model().held_a ||
-        rod->model().held_b != rods.front()->model().held_b)
-      throw std::invalid_argument("rods of a batch have equal elements and held ends");
+        rod->model().a.clamped() != rods.front()->model().a.clamped() ||
+        rod->model().b.clamped() != rods.front()->model().b.clamped())
+      throw std::invalid_argument("rods of a batch have equal elements and clamped ends");
   const int elements = rods.front()->elements();
   auto memory = sharing && sharing->impl_->w.count == elements + 1
                     ? sharing->impl_->workspace
@@ -77,25 +77,34 @@ RodBatch& RodBatch::operator=(RodBatch&&) noexcept = default;
 std::vector<SolveReport> RodBatch::Step(double dt, const std::vector<RodDrive>& drives) {
   Impl& m = *impl_;
   const int count = static_cast<int>(m.rods.size());
-  bool active[kMaxRods] = {};
-  const Load* loads[kMaxRods] = {};
-  double lengths[kMaxRods];
+  const StepCoefficients c(dt);
+  LaneTask tasks[kMaxRods];
   for (int l = 0; l < kMaxRods; ++l) {
-    active[l] = l < count && drives[l].a;
-    lengths[l] = m.OfLane(l).model.length;
-    if (active[l]) {
-      loads[l] = drives[l].load;
-      m.OfLane(l).HoldEnds(*drives[l].a, *drives[l].b);
+    Rod::Impl& rod = m.OfLane(l);
+    LaneTask& task = tasks[l];
+    task.active = l < count && drives[l].a;
+    task.length = rod.model.length;
+    if (task.active) {
+      task.load = drives[l].load;
+      task.ends = rod.ends();
+      rod.MoveEnds(c, *drives[l].a, *drives[l].b);
     }
     m.Gather(l, dt);
   }
   const Rod::Impl& any = m.OfLane(0);
-  SolveReport reports[kMaxRods];
-  SolveStep(StepCoefficients(dt), any.first_free(), any.last_free(), lengths, loads, active, &m.w,
-            reports);
-  for (int l = 0; l < count; ++l)
-    if (reports[l].converged) m.Scatter(l);
-  return {reports, reports + count};
+  SolveStep(c, any.first_free(), any.last_free(), &m.w, tasks);
+  std::vector<SolveReport> reports;
+  for (int l = 0; l < count; ++l) {
+    Rod::Impl& rod = m.OfLane(l);
+    reports.push_back(tasks[l].report);
+    if (tasks[l].report.converged) {
+      m.Scatter(l);
+      rod.AccountForStep(dt, tasks[l].load_power);
+    } else if (tasks[l].active) {
+      rod.TakeBackEnds();
+    }
+  }
+  return reports;
 }
 
 }  // namespace cosserat_cable::rod

@@ -30,21 +30,29 @@ Rod::Impl::Impl(const RodModel& m)
       h(m.length / m.elements),
       shear1(MakeShearSeries(m.section, h, 0, 1)),  // shear along a1 goes with bending about a2
       shear2(MakeShearSeries(m.section, h, 1, 0)),
+      branches(m.branches, m.elements),
+      end_a(m.a),
+      end_b(m.b),
       w(m.elements),
       shear(m.elements),
       stress(m.elements),
       missing_a{},
-      missing_b{} {
+      missing_b{},
+      end_a_before_(end_a),
+      end_b_before_(end_b) {
   for (int i = 0; i < w.count; ++i) {
     const double share = (i == 0 || i == w.count - 1) ? 0.5 * h : h;
     w.mass[i] = share * m.section.rhoA;
     w.inertia[i] = share * ToSmall(m.section.rhoJ);
   }
-  for (const PointMass& point : m.masses) {
-    const double position = std::clamp(point.s / h, 0.0, static_cast<double>(m.elements));
+  for (const LumpedBody& body : m.bodies) {
+    const double position = std::clamp(body.s / h, 0.0, static_cast<double>(m.elements));
     const int left = std::min(static_cast<int>(position), m.elements - 1);
-    w.mass[left] += (1 - (position - left)) * point.mass;
-    w.mass[left + 1] += (position - left) * point.mass;
+    const double share[] = {1 - (position - left), position - left};
+    for (int k = 0; k < 2; ++k) {
+      w.mass[left + k] += share[k] * body.mass;
+      w.inertia[left + k] += share[k] * ToSmall(body.inertia);
+    }
   }
   w.gravity = ToSmall(m.gravity);
   PrepareStatics();
@@ -52,75 +60,88 @@ Rod::Impl::Impl(const RodModel& m)
 
 void Rod::Impl::PrepareStatics() {
   const V3 none{};
+  const SectionValue more = branches.StaticStiffness();
   w.law = {h,
            {shear1.static_stiffness(), shear2.static_stiffness(), model.section.C_F.z()},
            ToSmall(model.section.C_M),
            none,
            none,
            ToSmall(model.section.gamma0)};
-  const V3 unbend = MomentOfUnstressedCurvature();
+  w.law.C_F += ToSmall(more.F);
+  w.law.C_M += ToSmall(more.M);
+  const V3 unbend = -Scale(w.law.C_M, ToSmall(model.section.kappa0));
   for (int e = 0; e < model.elements; ++e) w.chain.SetOffset(e, 0, none, unbend);
 }
 
 ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
   shear1.BeginStep(dt);
   shear2.BeginStep(dt);
-  return {h,
-          {shear1.C(), shear2.C(), model.section.C_F.z()},
-          ToSmall(model.section.C_M),
-          {shear1.V(), shear2.V(), model.section.V_F.z()},
-          ToSmall(model.section.V_M),
-          ToSmall(model.section.gamma0)};
+  ElementLaw<double> law = {h,
+                            {shear1.C(), shear2.C(), model.section.C_F.z()},
+                            ToSmall(model.section.C_M),
+                            {shear1.V(), shear2.V(), model.section.V_F.z()},
+                            ToSmall(model.section.V_M),
+                            ToSmall(model.section.gamma0)};
+  if (!branches.empty()) {
+    branches.BeginStep(dt);
+    const SectionValue more = branches.StepStiffness();
+    law.C_F += ToSmall(more.F);
+    law.C_M += ToSmall(more.M);
+  }
+  step_C_M = ToEigen(law.C_M);
+  return law;
 }
 
-V3 Rod::Impl::MomentOfUnstressedCurvature() const {
-  return -Scale(ToSmall(model.section.C_M), ToSmall(model.section.kappa0));
+SectionValue Rod::Impl::Offset(int element) const {
+  SectionValue offset;
+  offset.F.x() = shear1.Offset(shear[element][0]);
+  offset.F.y() = shear2.Offset(shear[element][1]);
+  offset.M = -step_C_M.cwiseProduct(model.section.kappa0);
+  if (!branches.empty()) offset += branches.Offset(element);
+  return offset;
 }
 
-ElementOffset<double> Rod::Impl::Offset(int element) const {
-  return {{shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0},
-          MomentOfUnstressedCurvature()};
+void Rod::Impl::MoveEnds(const StepCoefficients& c, const Pose& a, const Pose& b) {
+  if (!energy.open()) energy.Open({EndPower(), 0, DissipationRate()}, StoredEnergy());
+  end_a_before_ = end_a;
+  end_b_before_ = end_b;
+  end_a.MoveTo(a, c);
+  end_b.MoveTo(b, c);
+  if (model.a.clamped())
+    Hold(end_a.clamp(), w.node.front(), &w.trial.front(), &w.trial_rate.front());
+  if (model.b.clamped()) Hold(end_b.clamp(), w.node.back(), &w.trial.back(), &w.trial_rate.back());
 }
 
-void Rod::Impl::HoldEnds(const Motion& a, const Motion& b) {
-  if (model.held_a) Hold(a, w.node.front(), &w.trial.front(), &w.trial_rate.front());
-  if (model.held_b) Hold(b, w.node.back(), &w.trial.back(), &w.trial_rate.back());
+void Rod::Impl::TakeBackEnds() {
+  end_a = end_a_before_;
+  end_b = end_b_before_;
+}
+
+ElementStrain Rod::Impl::StrainOf(int e) const {
+  return {ToEigen(stress[e].gamma) - model.section.gamma0, ToEigen(stress[e].gamma_dot),
+          ToEigen(stress[e].kappa) - model.section.kappa0, ToEigen(stress[e].kappa_dot)};
 }
 
 template <class T>
 void Rod::Impl::TakeStresses(const StepWorkspace<T>& from, int lane, bool at_rest) {
   missing_a = GetLane(from.rhs.front(), lane);
   missing_b = GetLane(from.rhs.back(), lane);
-  const V3 gamma0 = ToSmall(model.section.gamma0);
   for (int e = 0; e < model.elements; ++e) {
     stress[e] = from.chain.Stress(e, lane);
-    const V3 gamma = stress[e].gamma - gamma0, rate = stress[e].gamma_dot;
-    if (at_rest)
-      shear[e] = {shear1.Rest(gamma.x), shear2.Rest(gamma.y)};
-    else
-      shear[e] = {shear1.Commit(shear[e][0], gamma.x, rate.x),
-                  shear2.Commit(shear[e][1], gamma.y, rate.y)};
+    const ElementStrain strain = StrainOf(e);
+    const Eigen::Vector3d &gamma = strain.gamma, &rate = strain.gamma_dot;
+    if (at_rest) {
+      shear[e] = {shear1.Rest(gamma.x()), shear2.Rest(gamma.y())};
+      branches.Rest(e, strain);
+    } else {
+      shear[e] = {shear1.Commit(shear[e][0], gamma.x(), rate.x()),
+                  shear2.Commit(shear[e][1], gamma.y(), rate.y())};
+      branches.Commit(e, strain);
+    }
   }
 }
 
 template void Rod::Impl::TakeStresses(const StepWorkspace<double>&, int, bool);
 template void Rod::Impl::TakeStresses(const StepWorkspace<Lanes>&, int, bool);
-
-double Rod::Impl::StrainEnergy() const {
-  double energy = 0;
-  const V3 kappa0 = ToSmall(model.section.kappa0);
-  for (int e = 0; e < model.elements; ++e) {
-    const ElementStress stress_of = w.chain.Stress(e, 0);
-    const V3 gamma = stress_of.gamma - w.law.gamma0, kappa = stress_of.kappa - kappa0;
-    energy += 0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa)));
-  }
-  return energy;
-}
-
-double Rod::Impl::GravityEnergy(const std::vector<NodeState>& nodes) const {
-  double energy = 0;
-  for (int i = 0; i < w.count; ++i) energy -= w.mass[i] * Dot(w.gravity, nodes[i].r);
-  return energy;
-}
 
 }  // namespace cosserat_cable::rod

@@ -20,7 +20,12 @@ namespace cosserat_cable::rod {
 class ShearSeries {
  public:
   ShearSeries(double GA, double eta_GA, double B, double eta_B)
-      : GA_(GA), sum_(GA + B), target_C_(B / sum_), target_V_(eta_B / sum_) {
+      : GA_(GA),
+        sum_(GA + B),
+        eta_GA_(eta_GA),
+        eta_B_(eta_B),
+        target_C_(B / sum_),
+        target_V_(eta_B / sum_) {
     const double eta = eta_GA + eta_B;
     lambda_ = eta > 0 ? sum_ / eta : std::numeric_limits<double>::infinity();
     viscous_ = eta > 0 ? eta_GA / eta * sum_ : 0.0;
@@ -31,6 +36,18 @@ class ShearSeries {
     double g1 = 0;  ///< shear of the section proper [1]
     double G = 0;   ///< what it tends to [1]
   };
+
+  /// Stored per length [J/m] under the whole shear `gamma`.
+  double Energy(const History& now, double gamma) const {
+    const double g2 = gamma - now.g1;
+    return 0.5 * (GA_ * now.g1 * now.g1 + (sum_ - GA_) * g2 * g2);
+  }
+  /// Dissipated per length [W/m].
+  double DissipationRate(const History& now, double gamma_dot) const {
+    if (eta_GA_ + eta_B_ <= 0) return 0;
+    const double g1_dot = lambda_ * (now.G - now.g1), g2_dot = gamma_dot - g1_dot;
+    return eta_GA_ * g1_dot * g1_dot + eta_B_ * g2_dot * g2_dot;
+  }
 
   double static_stiffness() const { return GA_ * target_C_; }  ///< [N]
 
@@ -65,7 +82,7 @@ class ShearSeries {
 
   double Carry(const History& past) const { return decay_ * past.g1 + weight_old_ * past.G; }
 
-  double GA_, sum_, target_C_, target_V_, lambda_, viscous_;
+  double GA_, sum_, eta_GA_, eta_B_, target_C_, target_V_, lambda_, viscous_;
   double decay_ = 0, weight_old_ = 0, weight_new_ = 1, stiffness_ = 0;
 };
 

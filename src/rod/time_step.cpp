@@ -28,38 +28,45 @@ void ClearLane(int first, int last, int lane, std::vector<Vec6<T>>* rhs) {
 }  // namespace
 
 template <class T>
-void SolveStep(const StepCoefficients& c, int first, int last, const double* lengths,
-               const Load* const* loads, const bool* active, StepWorkspace<T>* w,
-               SolveReport* reports) {
+void SolveStep(const StepCoefficients& c, int first, int last, StepWorkspace<T>* w,
+               LaneTask* tasks) {
   constexpr int kLanes = kLaneCount<T>;
   bool running[kLanes];
   double previous[kLanes] = {};
   for (int l = 0; l < kLanes; ++l) {
-    running[l] = active[l];
-    reports[l] = SolveReport();
+    running[l] = tasks[l].active;
+    tasks[l].report = SolveReport();
   }
   const auto any_running = [&] {
     return std::any_of(running, running + kLanes, [](bool r) { return r; });
   };
+  const auto for_each_running = [&](auto act) {
+    for (int l = 0; l < kLanes; ++l)
+      if (running[l]) act(l, tasks[l]);
+  };
   const auto balance = [&] {
     UpdateNodes(c, first, last, w);
+    for (int l = 0; l < kLanes; ++l) ImposeEndRates(tasks[l].ends, l, w);
     EvaluateForces(w);
     SubtractInertia(w);
   };
 
   // Constant velocity: a predictor with the acceleration blows up after a velocity jump.
   Predict(c, first, last, w);
+  for_each_running([&](int l, const LaneTask& task) { ImposeEnds(task.ends, l, w); });
   for (int iteration = 1; iteration <= kMaxIterations && any_running(); ++iteration) {
     balance();
     const bool fresh = iteration == 1 || iteration >= kRefactorFrom;
     if (fresh) AssembleTangent(c.velocity_by_increment, w);
-    for (int l = 0; l < kLanes; ++l)
-      if (running[l] && loads[l]) AddLoad(*loads[l], l, fresh, c.velocity_by_increment, w);
+    for_each_running([&](int l, const LaneTask& task) {
+      if (task.load) AddLoad(*task.load, l, fresh, c.velocity_by_increment, w);
+    });
+    if (fresh) AddInertia(c, first, last, w);
+    for_each_running([&](int l, const LaneTask& task) {
+      ConstrainEnds(task.ends, l, fresh, c.velocity_by_increment, w);
+    });
     T pivot(1.0);
-    if (fresh) {
-      AddInertia(c, first, last, w);
-      Factorise(first, last, w, &pivot);
-    }
+    if (fresh) Factorise(first, last, w, &pivot);
     Solve(w);
     const CorrectionSize<T> size = MeasureCorrection(first, last, *w);
     for (int l = 0; l < kLanes; ++l) {
@@ -67,10 +74,10 @@ void SolveStep(const StepCoefficients& c, int first, int last, const double* len
         ClearLane(first, last, l, &w->rhs);
         continue;
       }
-      SolveReport& report = reports[l];
+      SolveReport& report = tasks[l].report;
       report.iterations = iteration;
       report.correction =
-          std::max(GetLane(size.translation, l) / lengths[l], GetLane(size.rotation, l));
+          std::max(GetLane(size.translation, l) / tasks[l].length, GetLane(size.rotation, l));
       if (!std::isfinite(GetLane(size.sum, l)) || !(GetLane(pivot, l) > 0)) {
         running[l] = false;
         ClearLane(first, last, l, &w->rhs);
@@ -83,17 +90,17 @@ void SolveStep(const StepCoefficients& c, int first, int last, const double* len
       previous[l] = report.correction;
     }
     Correct(first, last, w);
+    for (int l = 0; l < kLanes; ++l) ImposeEnds(tasks[l].ends, l, w);
   }
 
   // What the accepted iterate's forces are.
   balance();
   for (int l = 0; l < kLanes; ++l)
-    if (reports[l].converged && loads[l]) AddLoad(*loads[l], l, false, c.velocity_by_increment, w);
+    if (tasks[l].report.converged && tasks[l].load)
+      tasks[l].load_power = AddLoad(*tasks[l].load, l, false, c.velocity_by_increment, w);
 }
 
-template void SolveStep(const StepCoefficients&, int, int, const double*, const Load* const*,
-                        const bool*, StepWorkspace<double>*, SolveReport*);
-template void SolveStep(const StepCoefficients&, int, int, const double*, const Load* const*,
-                        const bool*, StepWorkspace<Lanes>*, SolveReport*);
+template void SolveStep(const StepCoefficients&, int, int, StepWorkspace<double>*, LaneTask*);
+template void SolveStep(const StepCoefficients&, int, int, StepWorkspace<Lanes>*, LaneTask*);
 
 }  // namespace cosserat_cable::rod

@@ -32,14 +32,11 @@ Rod Settled(int k) {
   return rod;
 }
 
-Motion Shaken(const Pose& clamp, int k, double t) {
+Pose Shaken(Pose clamp, int k, double t) {
   const double w = 2 * M_PI * (10 + 5 * k), amplitude = 2e-3;
   const Vector3d axis = Vector3d(1, 0.3 * k, -0.2).normalized();
-  Motion motion = Motion::Resting(clamp);
-  motion.X.p += amplitude * std::sin(w * t) * axis;
-  motion.v = amplitude * w * std::cos(w * t) * axis;
-  motion.a = -amplitude * w * w * std::sin(w * t) * axis;
-  return motion;
+  clamp.p += amplitude * std::sin(w * t) * axis;
+  return clamp;
 }
 
 /// Apex positions of the chosen arches, stepped together in this order.
@@ -50,7 +47,7 @@ std::vector<Vector3d> StepTogether(const std::vector<int>& chosen, int steps) {
   for (Rod& rod : rods) pointers.push_back(&rod);
   RodBatch batch(pointers);
   for (int s = 1; s <= steps; ++s) {
-    std::vector<Motion> a, b;
+    std::vector<Pose> a, b;
     for (int k : chosen) {
       a.push_back(Shaken(kA, k, s * kDt));
       b.push_back(Shaken(kB, k, s * kDt));
@@ -87,10 +84,10 @@ TEST(RodBatchTest, AFailureStaysInItsLane) {
   Rod good = Settled(0), bad = Settled(1), other = Settled(3);
   const Vector3d before = bad.pose(11).p;
   RodBatch batch({&good, &bad, &other});
-  const Motion a0 = Shaken(kA, 0, kDt), b0 = Shaken(kB, 0, kDt);
-  const Motion a3 = Shaken(kA, 3, kDt), b3 = Shaken(kB, 3, kDt);
-  Motion nan = a0;
-  nan.X.p.x() = std::numeric_limits<double>::quiet_NaN();
+  const Pose a0 = Shaken(kA, 0, kDt), b0 = Shaken(kB, 0, kDt);
+  const Pose a3 = Shaken(kA, 3, kDt), b3 = Shaken(kB, 3, kDt);
+  Pose nan = a0;
+  nan.p.x() = std::numeric_limits<double>::quiet_NaN();
   const auto reports =
       batch.Step(kDt, {{&a0, &b0, nullptr}, {&nan, &b0, nullptr}, {&a3, &b3, nullptr}});
   EXPECT_TRUE(reports[0].converged);

@@ -36,7 +36,7 @@ TEST(StaticsTest, CantileverFollowsTheElastica) {
   RodModel model = RoundCable(1.0, 0.01, 0.1, 0.02, 0.015, 0, 0, 80);
   model.section.C_F.setConstant(1e6);  // neither shear nor stretch in the reference
   model.gravity.setZero();
-  model.held_b = false;
+  model.b = EndModel::Free();
   for (int k = 0; k < 4; ++k) {
     Rod rod(model);
     rod.SetConfiguration(StraightShape(Pose{}, 1.0, 80));
@@ -64,7 +64,7 @@ TEST(StaticsTest, BendOfFortyFiveDegrees) {
   model.section.rhoJ.setOnes();
   model.section.kappa0 = {0, 1 / kRadius, 0};
   model.gravity.setZero();
-  model.held_b = false;
+  model.b = EndModel::Free();
   // In the x-y plane, from the origin along y, bending towards x; a2 is -z... a3 x a1.
   std::vector<Pose> nodes;
   for (int i = 0; i <= kElements; ++i) {

@@ -11,23 +11,31 @@
 #include <vector>
 
 #include "cosserat_cable/math/pose.h"
+#include "cosserat_cable/rod/end_model.h"
+#include "cosserat_cable/rod/energy.h"
 #include "cosserat_cable/rod/load.h"
 #include "cosserat_cable/rod/section.h"
+#include "cosserat_cable/rod/section_branch.h"
 
 namespace cosserat_cable::rod {
 
-struct PointMass {
+/// A small rigid body whose centre of mass is on the centreline: a connector, a clip, a disc.
+struct LumpedBody {
   double s;     ///< arc length [m]; spread over the two nodes beside it
   double mass;  ///< [kg]
+  /// Principal moments of inertia about the section's a1, a2, a3 [kg m^2].
+  Eigen::Vector3d inertia = Eigen::Vector3d::Zero();
 };
 
 struct RodModel {
   double length = 0;  ///< unstressed [m]
   int elements = 40;
   Section section;
-  std::vector<PointMass> masses;
+  /// What the section has beside its Kelvin-Voigt elements; each rod clones them.
+  std::vector<std::shared_ptr<const SectionBranch>> branches;
+  std::vector<LumpedBody> bodies;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);  ///< [m/s^2]
-  bool held_a = true, held_b = true;  ///< clamped ends; a free one moves as it likes
+  EndModel a, b;
 };
 
 struct SolveReport {
@@ -36,7 +44,7 @@ struct SolveReport {
   double correction = 0;  ///< last Newton correction, relative to the length and in rad
 };
 
-/// Force and moment that a clamp exerts on the rod [N], [N m], world.
+/// Force and moment that a clamp, with its springs, exerts on the rod [N], [N m], world.
 struct Wrench {
   Eigen::Vector3d force, moment;
 };
@@ -52,29 +60,33 @@ class Rod : public Centreline {
   const RodModel& model() const;
   int elements() const override;
 
-  /// Sets the configuration, at rest. `nodes`: elements + 1 poses, a3 along growing s.
+  /// Sets the configuration, at rest. `nodes`: elements + 1 poses, a3 along growing s. The clamps
+  /// are where the end nodes are.
   void SetConfiguration(const std::vector<Pose>& nodes);
-  /// Adds the velocities of a rigid motion: of the frame whose origin is at `p` [m] with velocity v
-  /// [m/s] and angular velocity omega [rad/s], all in world axes.
-  void AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
-                      const Eigen::Vector3d& omega);
+  /// Puts the clamps' frames somewhere else, for the next Equilibrate.
+  void SetClamps(const Pose& a, const Pose& b);
+  /// Sets nodes and clamps moving as a rigid body: with a frame that has this motion in the world.
+  void AddRigidMotion(const Motion& frame);
 
   /// Static equilibrium by energy minimisation from the present configuration (regularised Newton
-  /// with a line search); held ends stay where they are. Velocities become zero.
+  /// with a line search) with the ends held by the clamps. Velocities become zero. Under a load
+  /// without a potential, by Newton's method with bounded steps: then from near enough.
   SolveReport Equilibrate(const Load* load = nullptr);
 
-  /// Advances by `dt` [s] to held ends that move like `a` and `b`. Where it does not converge the
+  /// Advances by `dt` [s] to clamps at `a` and `b`. Their velocities are those that the time scheme
+  /// makes of their poses, so that a rigid motion strains nothing. Where it does not converge the
   /// state is left as it was.
-  SolveReport Step(double dt, const Motion& a, const Motion& b, const Load* load = nullptr);
+  SolveReport Step(double dt, const Pose& a, const Pose& b, const Load* load = nullptr);
 
   /// Where the nodes would be after `dt` with unchanged velocities; ends as in `a`, `b`. What
   /// contact is searched at.
-  void Predict(double dt, const Motion& a, const Motion& b,
+  void Predict(double dt, const Pose& a, const Pose& b,
                std::vector<Eigen::Vector3d>* positions) const;
 
   // The state.
   Vec3<double> position(int node) const override;
   Vec3<double> velocity(int node) const override;
+  Quat<double> orientation(int node) const override;
   Pose pose(int node) const;
   Eigen::Vector3d angular_velocity(int node) const;  ///< section frame [rad/s]
   Eigen::Vector3d acceleration(int node) const;      ///< of the position [m/s^2]
@@ -84,8 +96,10 @@ class Rod : public Centreline {
   Wrench reaction_a() const;
   Wrench reaction_b() const;
   double kinetic_energy() const;  ///< [J]
-  double elastic_energy() const;  ///< [J]
+  double elastic_energy() const;  ///< [J], of the section's and the clamps' springs
   double gravity_energy() const;  ///< [J], zero at the world's origin
+  /// Where the energy came from and went since the configuration was last set or equilibrated.
+  EnergyBalance energy_balance() const;
 
  private:
   friend class RodBatch;

@@ -9,10 +9,10 @@
 
 namespace cosserat_cable::rod {
 
-/// Where one rod's held ends go in a step, and what acts on it.
+/// Where one rod's clamps go in a step, and what acts on it.
 struct RodDrive {
-  const Motion* a = nullptr;
-  const Motion* b = nullptr;
+  const Pose* a = nullptr;
+  const Pose* b = nullptr;
   const Load* load = nullptr;
 };
 

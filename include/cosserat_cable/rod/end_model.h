@@ -1,0 +1,44 @@
+// How an end of a rod is held: by a clamp, a pin, a slide, a clamp that gives way, or not at all.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+namespace cosserat_cable::rod {
+
+/// Components are those of the clamp's own frame, which moves as the user says. The end's section
+/// sits at the clamp's origin and is turned against it by the rotation vector psi = log(R_C^T R);
+/// both are zero in a clamp that holds everything.
+struct EndModel {
+  std::array<bool, 3> translation{true, true, true};  ///< held along the axes
+  std::array<bool, 3> rotation{true, true, true};     ///< held about the axes (components of psi)
+  /// Spring and dashpot about each axis that is not held: the moment -k psi - d dpsi/dt acts on the
+  /// section [N m/rad], [N m s/rad].
+  Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();
+  Eigen::Vector3d damping = Eigen::Vector3d::Zero();
+
+  static EndModel Clamped() { return {}; }
+  static EndModel Pinned() {
+    return {{true, true, true},
+            {false, false, false},
+            Eigen::Vector3d::Zero(),
+            Eigen::Vector3d::Zero()};
+  }
+  static EndModel Free() {
+    return {{false, false, false},
+            {false, false, false},
+            Eigen::Vector3d::Zero(),
+            Eigen::Vector3d::Zero()};
+  }
+  /// Held in place by a joint that gives way in rotation.
+  static EndModel Sprung(const Eigen::Vector3d& stiffness, const Eigen::Vector3d& damping) {
+    return {{true, true, true}, {false, false, false}, stiffness, damping};
+  }
+
+  /// Everything is held: the end's node moves with the clamp.
+  bool clamped() const {
+    return translation == std::array{true, true, true} && rotation == std::array{true, true, true};
+  }
+};
+
+}  // namespace cosserat_cable::rod

@@ -1,0 +1,17 @@
+// Where a rod's energy comes from and goes.
+#pragma once
+
+namespace cosserat_cable::rod {
+
+/// Since a state at rest (or in rigid motion), all in J. What a simulation makes or loses by itself
+/// shows in the residual.
+struct EnergyBalance {
+  double work_ends = 0;   ///< by both clamps on the rod and on their own springs
+  double work_loads = 0;  ///< by loads other than gravity: contact, point loads
+  double dissipated = 0;  ///< in the sections and in the clamps' dashpots
+  double stored = 0;      ///< change of the kinetic, elastic and gravity energy
+
+  double Residual() const { return work_ends + work_loads - stored - dissipated; }
+};
+
+}  // namespace cosserat_cable::rod

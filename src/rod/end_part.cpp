@@ -1,0 +1,146 @@
+#include "end_part.h"
+
+#include <algorithm>
+
+#include "cosserat_cable/math/rotation.h"
+#include "cosserat_cable/math/small_eigen.h"
+
+namespace cosserat_cable::rod {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+bool Any(const std::array<bool, 3>& held) {
+  return std::any_of(held.begin(), held.end(), [](bool h) { return h; });
+}
+
+/// A section that is held in every rotation has the clamp's very frame.
+bool All(const std::array<bool, 3>& held) {
+  return std::all_of(held.begin(), held.end(), [](bool h) { return h; });
+}
+
+}  // namespace
+
+EndPart::EndPart(const EndModel& model)
+    : model_(model),
+      holds_(Any(model.translation) || Any(model.rotation)),
+      holds_rotation_(Any(model.rotation)),
+      sprung_(model.stiffness.any() || model.damping.any()) {
+  // What is held needs no spring.
+  for (int k = 0; k < 3; ++k)
+    if (model.rotation[k]) model_.stiffness[k] = model_.damping[k] = 0;
+}
+
+EndPart::Relative EndPart::Compare(const Node<double>& node) const {
+  Relative of;
+  of.R_WC = clamp().X.q.toRotationMatrix();
+  of.d_W = ToEigen(node.r) - clamp().X.p;
+  of.omega_W = of.R_WC * clamp().omega;
+  const Eigen::Quaterniond q_CS = clamp().X.q.conjugate() * ToEigen(node.q);
+  of.psi = RotationLog(q_CS);
+  of.omega_C_S = q_CS.conjugate() * clamp().omega;
+  of.psi_dot = RightJacobianInverse(of.psi) * (ToEigen(node.omega) - of.omega_C_S);
+  return of;
+}
+
+void EndPart::ImposePose(Node<double>* node) const {
+  const Matrix3d R_WC = clamp().X.q.toRotationMatrix();
+  Vector3d d = ToEigen(node->r) - clamp().X.p;
+  for (int k = 0; k < 3; ++k)
+    if (model_.translation[k]) d -= R_WC.col(k) * R_WC.col(k).dot(d);
+  if (All(model_.translation)) d.setZero();
+  node->r = ToSmall(clamp().X.p + d);
+  if (!holds_rotation_) return;
+  Vector3d psi = RotationLog(clamp().X.q.conjugate() * ToEigen(node->q));
+  for (int k = 0; k < 3; ++k)
+    if (model_.rotation[k]) psi[k] = 0;
+  Quat<double> q = ToSmall((clamp().X.q * RotationExp(psi)).normalized());
+  // q and -q are the same rotation: stay on the side from which the neighbours were reached.
+  if (Dot(q, node->q) < 0) q = {-q.w, -q.x, -q.y, -q.z};
+  node->q = q;
+}
+
+void EndPart::ImposeRates(Node<double>* node, NodeRates<double>* rates) const {
+  if (!holds_) return;
+  const Relative of = Compare(*node);
+  const Vector3d alpha_W = of.R_WC * clamp().alpha;
+  Vector3d v = ToEigen(node->v) - clamp().v - of.omega_W.cross(of.d_W);  // as the clamp sees it
+  for (int k = 0; k < 3; ++k)
+    if (model_.translation[k]) v -= of.R_WC.col(k) * of.R_WC.col(k).dot(v);
+  const Vector3d carried = clamp().a + alpha_W.cross(of.d_W) +
+                           of.omega_W.cross(of.omega_W.cross(of.d_W)) + 2 * of.omega_W.cross(v);
+  Vector3d a = ToEigen(rates->v) - carried;
+  for (int k = 0; k < 3; ++k)
+    if (model_.translation[k]) a -= of.R_WC.col(k) * of.R_WC.col(k).dot(a);
+  node->v = ToSmall(clamp().v + of.omega_W.cross(of.d_W) + v);
+  rates->v = ToSmall(carried + a);
+
+  if (!holds_rotation_) return;
+  const Vector3d omega_relative = ToEigen(node->omega) - of.omega_C_S;
+  const Vector3d alpha_C_S = ToEigen(node->q).conjugate() * alpha_W;
+  ChartRates chart = ToChartRates(of.psi, {omega_relative, ToEigen(rates->omega) - alpha_C_S +
+                                                               omega_relative.cross(of.omega_C_S)});
+  for (int k = 0; k < 3; ++k)
+    if (model_.rotation[k]) chart.d_phi[k] = chart.dd_phi[k] = 0;
+  const BodyRates body = ToBodyRates(of.psi, chart);
+  node->omega = ToSmall(of.omega_C_S + body.omega);
+  rates->omega = ToSmall(alpha_C_S - body.omega.cross(of.omega_C_S) + body.alpha);
+}
+
+Vector3d EndPart::SpringMoment(const Node<double>& node) const {
+  if (!sprung_) return Vector3d::Zero();
+  const Relative of = Compare(node);
+  return -RightJacobianInverse(of.psi).transpose() *
+         (model_.stiffness.cwiseProduct(of.psi) + model_.damping.cwiseProduct(of.psi_dot));
+}
+
+Matrix3d EndPart::SpringTangent(const Node<double>& node, double rate_factor) const {
+  if (!sprung_) return Matrix3d::Zero();
+  const Matrix3d J = RightJacobianInverse(Compare(node).psi);
+  const Vector3d k = model_.stiffness + rate_factor * model_.damping;
+  return J.transpose() * k.asDiagonal() * J;
+}
+
+double EndPart::SpringEnergy(const Node<double>& node) const {
+  if (!sprung_) return 0;
+  const Vector3d psi = Compare(node).psi;
+  return 0.5 * psi.dot(model_.stiffness.cwiseProduct(psi));
+}
+
+double EndPart::SpringDissipationRate(const Node<double>& node) const {
+  if (!sprung_) return 0;
+  const Vector3d psi_dot = Compare(node).psi_dot;
+  return psi_dot.dot(model_.damping.cwiseProduct(psi_dot));
+}
+
+EndPart::Matrix6 EndPart::FreeProjector(const Node<double>& node) const {
+  Matrix6 projector = Matrix6::Identity();
+  const Relative of = Compare(node);
+  for (int k = 0; k < 3; ++k)
+    if (model_.translation[k])
+      projector.topLeftCorner<3, 3>() -= of.R_WC.col(k) * of.R_WC.col(k).transpose();
+  if (All(model_.translation)) projector.topLeftCorner<3, 3>().setZero();
+  if (All(model_.rotation)) {
+    projector.bottomRightCorner<3, 3>().setZero();
+    return projector;
+  }
+  // psi_k stays: phi is orthogonal to that row of d(psi)/d(phi).
+  const Matrix3d rows = RightJacobianInverse(of.psi);
+  auto rotation = projector.bottomRightCorner<3, 3>();
+  for (int k = 0; k < 3; ++k) {
+    if (!model_.rotation[k]) continue;
+    const Vector3d direction = (rotation * rows.row(k).transpose()).normalized();
+    rotation -= direction * direction.transpose();
+  }
+  return projector;
+}
+
+double EndPart::Power(const Node<double>& node, const Vec3<double>& force,
+                      const Vec3<double>& moment) const {
+  const Relative of = Compare(node);
+  return ToEigen(force).dot(clamp().v + of.omega_W.cross(of.d_W)) +
+         ToEigen(moment).dot(of.omega_C_S);
+}
+
+}  // namespace cosserat_cable::rod

@@ -1,0 +1,69 @@
+// One end of a rod that is held in part: keeps its node where the clamp lets it, and bears on it
+// with the clamp's springs.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "cosserat_cable/math/pose.h"
+#include "cosserat_cable/rod/end_model.h"
+#include "prescribed_motion.h"
+#include "step_workspace.h"
+
+namespace cosserat_cable::rod {
+
+class EndPart {
+ public:
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+  explicit EndPart(const EndModel& model);
+
+  /// Whether anything is held.
+  bool holds() const { return holds_; }
+  /// Whether the clamp exerts anything.
+  bool bears() const { return holds_ || sprung_; }
+  /// Whether the node is an unknown on which this end bears.
+  bool active() const { return !model_.clamped() && bears(); }
+
+  const Motion& clamp() const { return clamp_.motion(); }
+  void Start(const Motion& clamp) { clamp_.Start(clamp); }
+  void MoveTo(const Pose& clamp, const StepCoefficients& c) { clamp_.MoveTo(clamp, c); }
+
+  /// Puts what is held of the node's pose where the clamp has it.
+  void ImposePose(Node<double>* node) const;
+  /// Likewise of its velocities and their rates; the pose stands.
+  void ImposeRates(Node<double>* node, NodeRates<double>* rates) const;
+
+  /// Moment of the springs on the node [N m], section frame.
+  Eigen::Vector3d SpringMoment(const Node<double>& node) const;
+  /// Minus its derivative by the section's rotation, where d(rate)/d(rotation) is `rate_factor`
+  /// [1/s]: symmetric, not negative.
+  Eigen::Matrix3d SpringTangent(const Node<double>& node, double rate_factor) const;
+  double SpringEnergy(const Node<double>& node) const;           ///< [J]
+  double SpringDissipationRate(const Node<double>& node) const;  ///< [W]
+
+  /// Orthogonal projector onto the displacements and rotations (section frame) that are free.
+  Matrix6 FreeProjector(const Node<double>& node) const;
+
+  /// Power [W] that the clamp puts in where it exerts `force` [N] (world) and `moment` [N m]
+  /// (section frame) on the node.
+  double Power(const Node<double>& node, const Vec3<double>& force,
+               const Vec3<double>& moment) const;
+
+ private:
+  /// The node's section as seen from the clamp.
+  struct Relative {
+    Eigen::Matrix3d R_WC;
+    Eigen::Vector3d d_W;        // from the clamp's origin [m]
+    Eigen::Vector3d omega_W;    // of the clamp [rad/s]
+    Eigen::Vector3d psi;        // [rad]
+    Eigen::Vector3d omega_C_S;  // the clamp's angular velocity, section frame [rad/s]
+    Eigen::Vector3d psi_dot;    // [rad/s]
+  };
+  Relative Compare(const Node<double>& node) const;
+
+  EndModel model_;
+  bool holds_, holds_rotation_, sprung_;
+  PrescribedMotion clamp_;
+};
+
+}  // namespace cosserat_cable::rod

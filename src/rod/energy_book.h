@@ -1,0 +1,58 @@
+// The running account behind EnergyBalance.
+#pragma once
+
+#include "cosserat_cable/rod/energy.h"
+
+namespace cosserat_cable::rod {
+
+class EnergyBook {
+ public:
+  /// What flows at one instant [W].
+  struct Flow {
+    double ends = 0, loads = 0, dissipation = 0;
+  };
+
+  /// The next step starts a new account.
+  void Close() { open_ = false; }
+  bool open() const { return open_; }
+  void Open(const Flow& flow, double stored) {
+    ends_.Restart(flow.ends);
+    loads_.Restart(flow.loads);
+    dissipation_.Restart(flow.dissipation);
+    stored_at_start_ = stored;
+    open_ = true;
+  }
+  void Add(double dt, const Flow& flow) {
+    ends_.Add(dt, flow.ends);
+    loads_.Add(dt, flow.loads);
+    dissipation_.Add(dt, flow.dissipation);
+  }
+  EnergyBalance Balance(double stored) const {
+    if (!open_) return {};
+    return {ends_.work(), loads_.work(), dissipation_.work(), stored - stored_at_start_};
+  }
+
+ private:
+  /// Integrates a power from its values at the steps' ends by the trapezoidal rule.
+  class Integral {
+   public:
+    void Restart(double power) {
+      power_ = power;
+      work_ = 0;
+    }
+    void Add(double dt, double power) {
+      work_ += 0.5 * dt * (power_ + power);
+      power_ = power;
+    }
+    double work() const { return work_; }
+
+   private:
+    double power_ = 0, work_ = 0;
+  };
+
+  bool open_ = false;
+  double stored_at_start_ = 0;
+  Integral ends_, loads_, dissipation_;
+};
+
+}  // namespace cosserat_cable::rod

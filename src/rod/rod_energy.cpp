@@ -1,0 +1,81 @@
+// What a rod stores, what its ends put in and what its sections turn into heat.
+#include "rod_impl.h"
+
+namespace cosserat_cable::rod {
+
+double Rod::Impl::StaticEnergy() const {
+  double energy = 0;
+  const V3 kappa0 = ToSmall(model.section.kappa0);
+  for (int e = 0; e < model.elements; ++e) {
+    const ElementStress now = w.chain.Stress(e, 0);
+    const V3 gamma = now.gamma - w.law.gamma0, kappa = now.kappa - kappa0;
+    energy += 0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa)));
+  }
+  return energy + end_a.SpringEnergy(w.trial.front()) + end_b.SpringEnergy(w.trial.back());
+}
+
+double Rod::Impl::GravityEnergy(const std::vector<NodeState>& nodes) const {
+  double energy = 0;
+  for (int i = 0; i < w.count; ++i) energy -= w.mass[i] * Dot(w.gravity, nodes[i].r);
+  return energy;
+}
+
+double Rod::Impl::KineticEnergy() const {
+  double energy = 0;
+  for (int i = 0; i < w.count; ++i) {
+    const NodeState& n = w.node[i];
+    energy += 0.5 * (w.mass[i] * Dot(n.v, n.v) + Dot(n.omega, Scale(w.inertia[i], n.omega)));
+  }
+  return energy;
+}
+
+double Rod::Impl::ElasticEnergy() const {
+  double energy = 0;
+  for (int e = 0; e < model.elements; ++e) {
+    const ElementStrain strain = StrainOf(e);
+    const Eigen::Vector3d &gamma = strain.gamma, &kappa = strain.kappa;
+    energy += h * (shear1.Energy(shear[e][0], gamma.x()) + shear2.Energy(shear[e][1], gamma.y()) +
+                   0.5 * model.section.C_F.z() * gamma.z() * gamma.z() +
+                   0.5 * kappa.dot(model.section.C_M.cwiseProduct(kappa)) + branches.Energy(e));
+  }
+  return energy + end_a.SpringEnergy(w.node.front()) + end_b.SpringEnergy(w.node.back());
+}
+
+double Rod::Impl::StoredEnergy() const {
+  return KineticEnergy() + ElasticEnergy() + GravityEnergy(w.node);
+}
+
+double Rod::Impl::DissipationRate() const {
+  double rate = 0;
+  for (int e = 0; e < model.elements; ++e) {
+    const ElementStrain strain = StrainOf(e);
+    const Eigen::Vector3d &gamma_dot = strain.gamma_dot, &kappa_dot = strain.kappa_dot;
+    rate += h * (shear1.DissipationRate(shear[e][0], gamma_dot.x()) +
+                 shear2.DissipationRate(shear[e][1], gamma_dot.y()) +
+                 model.section.V_F.z() * gamma_dot.z() * gamma_dot.z() +
+                 kappa_dot.dot(model.section.V_M.cwiseProduct(kappa_dot)) +
+                 branches.DissipationRate(e));
+  }
+  return rate + end_a.SpringDissipationRate(w.node.front()) +
+         end_b.SpringDissipationRate(w.node.back());
+}
+
+double Rod::Impl::EndPower() const {
+  const auto power = [](const EndPart& end, const NodeState& node, const Vec6<double>& missing) {
+    if (!end.bears()) return 0.0;
+    return end.Power(node, {-missing[0], -missing[1], -missing[2]},
+                     {-missing[3], -missing[4], -missing[5]});
+  };
+  return power(end_a, w.node.front(), missing_a) + power(end_b, w.node.back(), missing_b);
+}
+
+void Rod::Impl::AccountForStep(double dt, double load_power) {
+  energy.Add(dt, {EndPower(), load_power, DissipationRate()});
+}
+
+EnergyBalance Rod::energy_balance() const { return impl_->energy.Balance(impl_->StoredEnergy()); }
+double Rod::kinetic_energy() const { return impl_->KineticEnergy(); }
+double Rod::elastic_energy() const { return impl_->ElasticEnergy(); }
+double Rod::gravity_energy() const { return impl_->GravityEnergy(impl_->w.node); }
+
+}  // namespace cosserat_cable::rod

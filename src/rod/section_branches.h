@@ -1,0 +1,63 @@
+// The branches of one rod's section law, as a value: copying a rod copies their internal variables.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cosserat_cable/rod/section_branch.h"
+
+namespace cosserat_cable::rod {
+
+class SectionBranches {
+ public:
+  SectionBranches(const std::vector<std::shared_ptr<const SectionBranch>>& prototypes,
+                  int elements) {
+    for (const auto& prototype : prototypes) {
+      branches_.push_back(prototype->Clone());
+      branches_.back()->SetElements(elements);
+    }
+  }
+  SectionBranches(const SectionBranches& other) {
+    for (const auto& branch : other.branches_) branches_.push_back(branch->Clone());
+  }
+  SectionBranches(SectionBranches&&) noexcept = default;
+  SectionBranches& operator=(SectionBranches&&) noexcept = default;
+
+  bool empty() const { return branches_.empty(); }
+
+  void BeginStep(double dt) {
+    for (auto& branch : branches_) branch->BeginStep(dt);
+  }
+  SectionValue StepStiffness() const { return Sum(&SectionBranch::StepStiffness); }
+  SectionValue StaticStiffness() const { return Sum(&SectionBranch::StaticStiffness); }
+  SectionValue Offset(int element) const { return Sum(&SectionBranch::Offset, element); }
+  void Commit(int element, const ElementStrain& strain) {
+    for (auto& branch : branches_) branch->Commit(element, strain);
+  }
+  void Rest(int element, const ElementStrain& strain) {
+    for (auto& branch : branches_) branch->Rest(element, strain);
+  }
+  double Energy(int element) const {
+    double energy = 0;
+    for (const auto& branch : branches_) energy += branch->Energy(element);
+    return energy;
+  }
+  double DissipationRate(int element) const {
+    double rate = 0;
+    for (const auto& branch : branches_) rate += branch->DissipationRate(element);
+    return rate;
+  }
+
+ private:
+  template <class... Arguments>
+  SectionValue Sum(SectionValue (SectionBranch::*value)(Arguments...) const,
+                   Arguments... arguments) const {
+    SectionValue sum;
+    for (const auto& branch : branches_) sum += (branch.get()->*value)(arguments...);
+    return sum;
+  }
+
+  std::vector<std::unique_ptr<SectionBranch>> branches_;
+};
+
+}  // namespace cosserat_cable::rod

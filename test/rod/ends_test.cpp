@@ -1,0 +1,203 @@
+// Ends that are pinned, free, sprung or held in part; prescribed loads; lumped bodies.
+#include <gtest/gtest.h>
+
+#include "cosserat_cable/rod/point_loads.h"
+#include "rod/rod_cases.h"
+
+namespace cosserat_cable::rod {
+namespace {
+
+using Eigen::AngleAxisd;
+using Eigen::Vector3d;
+
+constexpr double kLength = 0.3, kEI = 0.02, kGJ = 0.015;
+
+RodModel Weightless(int elements = 40) {
+  RodModel model = RoundCable(kLength, 0.004, 0.05, kEI, kGJ, 0, 0, elements);
+  model.section.V_F.setZero();
+  model.gravity.setZero();
+  return model;
+}
+
+Rod Straight(const RodModel& model) {
+  Rod rod(model);
+  rod.SetConfiguration(StraightShape(Pose{}, model.length, model.elements));
+  return rod;
+}
+
+TEST(EndsTest, AnEndMomentRollsTheRodUp) {
+  // M = 2 pi EI/L and 4 pi EI/L close one circle and two; constant curvature is exact in this
+  // element, and what is left is where Newton's iteration stops.
+  constexpr double kTolerance = 1e-8;  // of the length
+  for (int turns : {1, 2}) {
+    RodModel model = Weightless();
+    model.b = EndModel::Free();
+    Rod rod = Straight(model);
+    PointLoads load(kLength,
+                    {{kLength, Vector3d::Zero(), {0, 2 * M_PI * turns * kEI / kLength, 0}}});
+    load.loads[0].follower = true;
+    // In steps of a twentieth of a turn: a moment has no potential to descend.
+    const Vector3d whole = load.loads[0].moment;
+    for (int k = 1; k <= 20 * turns; ++k) {
+      load.loads[0].moment = whole * k / (20 * turns);
+      ASSERT_TRUE(rod.Equilibrate(&load).converged) << turns << ' ' << k;
+    }
+    EXPECT_LT((rod.pose(40).p - rod.pose(0).p).norm(), kTolerance * kLength) << turns;
+    for (int e = 0; e < 40; ++e)
+      EXPECT_NEAR(rod.curvature(e).y() * kLength / (2 * M_PI), turns, kTolerance * 10) << e;
+  }
+}
+
+TEST(EndsTest, AFollowerForceTurnsWithTheSection) {
+  // At equilibrium the clamp carries the force in the direction in which it has turned.
+  constexpr double kTolerance = 1e-7;  // [N]
+  RodModel model = Weightless();
+  model.b = EndModel::Free();
+  Rod rod = Straight(model);
+  PointLoads load(kLength, {{kLength, {0.3, 0, 0}}});
+  load.loads[0].follower = true;
+  ASSERT_TRUE(rod.Equilibrate(&load).converged);
+  const Vector3d carried = rod.pose(40).q * Vector3d(0.3, 0, 0);
+  EXPECT_LT((rod.reaction_a().force + carried).norm(), kTolerance);
+  EXPECT_GT(std::acos(carried.x() / 0.3), 0.3);  // it has turned by far
+}
+
+TEST(EndsTest, ASprungClampGivesWay) {
+  // Small tip force on a cantilever with a root spring: P L^3/(3 EI) + P L^2/k + P L/GA.
+  constexpr double kRelative = 1e-4;  // large-rotation effects at 1 mm are 1e-5
+  constexpr double kForce = 0.002, kSpring = 0.1;
+  RodModel model = Weightless(80);
+  model.a = EndModel::Sprung({kSpring, kSpring, kSpring}, Vector3d::Zero());
+  model.b = EndModel::Free();
+  Rod rod = Straight(model);
+  const PointLoads load(kLength, {{kLength, {kForce, 0, 0}}});
+  ASSERT_TRUE(rod.Equilibrate(&load).converged);
+  const double expected = kForce * (std::pow(kLength, 3) / (3 * kEI) + kLength * kLength / kSpring +
+                                    kLength / model.section.C_F.x());
+  EXPECT_NEAR(rod.pose(80).p.x(), expected, kRelative * expected);
+  EXPECT_NEAR(rod.reaction_a().moment.y(), -kForce * kLength, kRelative * kForce * kLength);
+}
+
+TEST(EndsTest, APinnedRodHangsFromItsPinsWithoutMoments) {
+  constexpr double kTolerance = 1e-8;  // [N m]; Newton stops at corrections of 1e-10
+  RodModel model = RoundCable(kLength, 0.004, 0.05, kEI / 100, kGJ / 100, 0, 0, 40);
+  model.a = model.b = EndModel::Pinned();
+  Rod rod(model);
+  const Pose a = Facing({0, 0, 0}, Vector3d(1, 0, -1).normalized());
+  const Pose b = Facing({0.2, 0, 0}, Vector3d(1, 0, 1).normalized());
+  rod.SetConfiguration(BowedShape(a, b, kLength, 40, model.gravity));
+  ASSERT_TRUE(rod.Equilibrate().converged);
+  EXPECT_LT((rod.pose(0).p - a.p).norm() + (rod.pose(40).p - b.p).norm(), 1e-12);
+  EXPECT_LT(rod.reaction_a().moment.norm(), kTolerance);
+  EXPECT_LT(rod.reaction_b().moment.norm(), kTolerance);
+  EXPECT_NEAR(rod.reaction_a().force.z() + rod.reaction_b().force.z(), kLength * 0.05 * 9.81,
+              kTolerance);
+}
+
+TEST(EndsTest, PartlyHeldEndsKeepWhatTheyHoldWhileTheClampMoves) {
+  // A slide along the clamp's axis that lets the section turn about that axis only, on a clamp that
+  // swings and shakes.
+  constexpr double kTolerance = 1e-12;
+  // [N] Newton may stop 3e-9 m from balance, where the axial stiffness of an element is 1.3e6 N/m.
+  constexpr double kNoForce = 1e-4;
+  RodModel model = RoundCable(kLength, 0.004, 0.05, kEI, kGJ, 1e-5, 1e-5, 20);
+  model.b.translation = {true, true, false};
+  model.b.rotation = {true, true, false};
+  Rod rod = Straight(model);
+  ASSERT_TRUE(rod.Equilibrate().converged);
+  Pose b;
+  b.p.z() = kLength;
+  double slid = 0, turned = 0;
+  for (int k = 1; k <= 400; ++k) {
+    const double t = k * 1e-3, w = 2 * M_PI * 3;
+    const double f = std::pow(1 - std::cos(w * t), 3);  // from rest, with no jump
+    Pose moved = b;
+    moved.p += 2e-3 * f * Vector3d(1, 0.5, 0);
+    moved.q = AngleAxisd(0.05 * f, Vector3d::UnitY());
+    ASSERT_TRUE(rod.Step(1e-3, Pose{}, moved).converged) << t;
+    const Vector3d d = moved.q.conjugate() * (rod.pose(20).p - moved.p);
+    EXPECT_LT(std::abs(d.x()) + std::abs(d.y()), kTolerance);
+    const Eigen::Vector3d across = moved.q.conjugate() * rod.pose(20).q * Vector3d::UnitZ();
+    EXPECT_LT((across - Vector3d::UnitZ()).norm(), 1e-9);
+    slid = std::max(slid, std::abs(d.z()));
+    turned = std::max(turned, rod.pose(20).q.angularDistance(moved.q));
+    // What it does not hold carries no load.
+    EXPECT_LT(std::abs((moved.q.conjugate() * rod.reaction_b().force).z()), kNoForce);
+    EXPECT_LT(std::abs((moved.q.conjugate() * rod.reaction_b().moment).z()), kNoForce * kLength);
+  }
+  EXPECT_GT(slid, 1e-5);
+}
+
+/// Zero crossings and envelope of a decaying signal about zero: damped frequency [rad/s], decay
+/// [1/s].
+struct Ringing {
+  double Omega, delta;
+};
+Ringing Listen(const std::vector<double>& x, double dt) {
+  std::vector<double> zeros, peaks, times;
+  for (std::size_t k = 1; k + 1 < x.size(); ++k) {
+    if (x[k - 1] * x[k] < 0) zeros.push_back((k - 1 + x[k - 1] / (x[k - 1] - x[k])) * dt);
+    if ((x[k] - x[k - 1]) * (x[k + 1] - x[k]) < 0) {
+      const double curvature = x[k - 1] - 2 * x[k] + x[k + 1], slope = 0.5 * (x[k + 1] - x[k - 1]);
+      peaks.push_back(std::abs(x[k] - 0.5 * slope * slope / curvature));
+      times.push_back((k - slope / curvature) * dt);
+    }
+  }
+  return {M_PI * (zeros.size() - 1) / (zeros.back() - zeros.front()),
+          std::log(peaks.front() / peaks.back()) / (times.back() - times.front())};
+}
+
+TEST(EndsTest, TorsionalPendulumFollowsTheSourcePaper) {
+  // Eqs. (12), (13): w^2 = GJ/(L J), 2 delta = (eta_GJ/L + D_E)/J, with a third of the cable's own
+  // inertia in J (Rayleigh).
+  constexpr double kRelative = 5e-3;
+  constexpr double kDisc = 2e-6, kEta = 2e-6, kD_E = 4e-6;
+  RodModel model = RoundCable(kLength, 0.008, 0.09, kEI, kGJ, 1e-4, kEta, 20);
+  model.gravity.setZero();
+  model.b = EndModel::Free();
+  model.b.damping = {0, 0, kD_E};  // at the fixation; here the disc turns in it
+  model.bodies = {{kLength, 0.05, {kDisc / 2, kDisc / 2, kDisc}}};
+  Rod rod = Straight(model);
+  PointLoads twist(kLength, {{kLength, Vector3d::Zero(), {0, 0, kGJ / kLength * 0.5}}});
+  twist.loads[0].follower = true;
+  ASSERT_TRUE(rod.Equilibrate(&twist).converged);
+  const Pose a;
+  Pose released = rod.pose(20);
+  released.q.setIdentity();
+  std::vector<double> angle;
+  for (int k = 0; k < 1500; ++k) {
+    ASSERT_TRUE(rod.Step(2e-4, a, released).converged);
+    const Eigen::Quaterniond q = rod.pose(20).q;
+    angle.push_back(2 * std::atan2(q.z(), q.w()));
+  }
+  const Ringing heard = Listen(angle, 2e-4);
+  const double J = kDisc + model.section.rhoJ.z() * kLength / 3;
+  const double w_squared = kGJ / (kLength * J), delta = (kEta / kLength + kD_E) / (2 * J);
+  EXPECT_NEAR(heard.Omega * heard.Omega + heard.delta * heard.delta, w_squared,
+              2 * kRelative * w_squared);
+  EXPECT_NEAR(heard.delta, delta, kRelative * delta);
+}
+
+TEST(EndsTest, ACantileverWithATipMassSwingsAsRayleighSays) {
+  // w^2 = 3 EI/(L^3 (m + 0.2357 rhoA L)), physics of a light beam with a heavy tip; Rayleigh's
+  // value is high by less than 0.1 % where the tip is that heavy.
+  constexpr double kRelative = 2e-3;
+  constexpr double kTip = 0.05;
+  RodModel model = Weightless();
+  model.b = EndModel::Free();
+  model.bodies = {{kLength, kTip}};
+  Rod rod = Straight(model);
+  const PointLoads pull(kLength, {{kLength, {0.002, 0, 0}}});
+  ASSERT_TRUE(rod.Equilibrate(&pull).converged);
+  const Pose clamp;
+  std::vector<double> tip;
+  for (int k = 0; k < 2000; ++k) {
+    ASSERT_TRUE(rod.Step(1e-3, clamp, clamp).converged);
+    tip.push_back(rod.pose(40).p.x());
+  }
+  const double w = std::sqrt(3 * kEI / (std::pow(kLength, 3) * (kTip + 0.2357 * 0.05 * kLength)));
+  EXPECT_NEAR(Listen(tip, 1e-3).Omega, w, kRelative * w);
+}
+
+}  // namespace
+}  // namespace cosserat_cable::rod
