@@ -25,29 +25,6 @@ Rod Straight(const RodModel& model) {
   return rod;
 }
 
-TEST(EndsTest, AnEndMomentRollsTheRodUp) {
-  // M = 2 pi EI/L and 4 pi EI/L close one circle and two; constant curvature is exact in this
-  // element, and what is left is where Newton's iteration stops.
-  constexpr double kTolerance = 1e-8;  // of the length
-  for (int turns : {1, 2}) {
-    RodModel model = Weightless();
-    model.b = EndModel::Free();
-    Rod rod = Straight(model);
-    PointLoads load(kLength,
-                    {{kLength, Vector3d::Zero(), {0, 2 * M_PI * turns * kEI / kLength, 0}}});
-    load.loads[0].follower = true;
-    // In steps of a twentieth of a turn: a moment has no potential to descend.
-    const Vector3d whole = load.loads[0].moment;
-    for (int k = 1; k <= 20 * turns; ++k) {
-      load.loads[0].moment = whole * k / (20 * turns);
-      ASSERT_TRUE(rod.Equilibrate(&load).converged) << turns << ' ' << k;
-    }
-    EXPECT_LT((rod.pose(40).p - rod.pose(0).p).norm(), kTolerance * kLength) << turns;
-    for (int e = 0; e < 40; ++e)
-      EXPECT_NEAR(rod.curvature(e).y() * kLength / (2 * M_PI), turns, kTolerance * 10) << e;
-  }
-}
-
 TEST(EndsTest, AFollowerForceTurnsWithTheSection) {
   // At equilibrium the clamp carries the force in the direction in which it has turned.
   constexpr double kTolerance = 1e-7;  // [N]

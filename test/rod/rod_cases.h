@@ -9,21 +9,6 @@
 
 namespace cosserat_cable::rod {
 
-/// Constant force on the last node.
-class TipForce : public Load {
- public:
-  explicit TipForce(const Eigen::Vector3d& force) : force_{force.x(), force.y(), force.z()} {}
-  void Evaluate(const Centreline& rod, LoadSink* sink) const override {
-    sink->AddForce(rod.elements() - 1, 1.0, force_, {}, {});
-  }
-  double Energy(const Centreline& rod) const override {
-    return -Dot(force_, rod.position(rod.elements()));
-  }
-
- private:
-  Vec3<double> force_;
-};
-
 /// Constant forces on every node.
 class NodeForces : public Load {
  public:

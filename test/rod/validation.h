@@ -1,0 +1,36 @@
+// A published case: what was printed there, what this rod gives. The rows go into the test's XML
+// report, from which scripts/validation makes docs/validation.md.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace cosserat_cable::rod {
+
+struct ValidationRow {
+  std::string section;   ///< of the table: statics, vibration, motion, numerics
+  std::string what;      ///< the case and the quantity, with its unit
+  std::string source;    ///< where the target is from
+  double target;
+  double ours;
+  double tolerance;      ///< largest |ours - target| allowed
+  int elements;
+  double dt = 0;         ///< [s]; 0: statics or modal analysis
+};
+
+/// Fails where the row is beyond its tolerance; records it in any case.
+inline void Validate(const ValidationRow& row) {
+  EXPECT_LE(std::abs(row.ours - row.target), row.tolerance)
+      << row.what << ": got " << row.ours << ", expected " << row.target;
+  static int count = 0;
+  char numbers[160];
+  std::snprintf(numbers, sizeof(numbers), "|%.9g|%.9g|%.9g|%d|%.9g", row.target, row.ours,
+                row.tolerance, row.elements, row.dt);
+  testing::Test::RecordProperty("validation_" + std::to_string(count++),
+                                row.section + "|" + row.what + "|" + row.source + numbers);
+}
+
+}  // namespace cosserat_cable::rod
