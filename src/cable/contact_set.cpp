@@ -15,6 +15,9 @@ namespace {
 constexpr double kMargin = 2e-3;  // [m]
 // How far a search looks where it must look at all; bounds what the next steps can skip.
 constexpr double kSearchReach = 0.1;  // [m]
+// A cable that is so much farther away than a surface is taken into a step needs no look for the
+// next steps.
+constexpr double kFar = 2e-2;  // [m]
 // The distance of an element without sites.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -58,21 +61,14 @@ ContactSet::ContactSet(const CableModel& model, std::vector<const Body*> bodies)
   planes_.reserve(trackers_.size());
 }
 
-ContactSet::Sphere ContactSet::Bound(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : points) box.extend(p);
-  return {box.center(), 0.5 * box.diagonal().norm()};
-}
-
-bool ContactSet::OutOfReach(const Place& place, const Sphere& cable_W) {
-  const Eigen::Vector3d centre_B = place.R_WB.transpose() * (cable_W.centre - place.motion.X.p);
-  const double distance = bodies_[place.body]->LowerBound(centre_B) - cable_W.radius;
-  if (distance <= radius_ + kMargin) return false;
-  for (std::size_t e = 0; e < elements(); ++e) {
-    if (!HasSites(e)) continue;
-    if (known_[place.body * elements() + e]) Forget(place.body, e);
-    watches_[place.body].Set(e, nodes_B_[e], nodes_B_[e + 1], distance);
-  }
+bool ContactSet::OutOfReach(std::size_t body, double half) {
+  const double needed = radius_ + kMargin;
+  const bool far = bodies_[body]->IsBeyond(needed + half + kFar, nodes_B_);
+  if (!far && !bodies_[body]->IsBeyond(needed + half, nodes_B_)) return false;
+  const std::size_t first = body * elements();
+  for (std::size_t e = 0; e < elements(); ++e)
+    if (known_[first + e]) Forget(body, e);
+  if (far) watches_[body].SetAll(nodes_B_, needed + kFar);
   return true;
 }
 
@@ -129,15 +125,15 @@ void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
   if (bodies_.empty()) return;
   const double needed = radius_ + kMargin;
   nodes_W_.Assign(nodes_W);
-  std::optional<Sphere> bound_W;
+  std::optional<double> half;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Motion& motion = bodies_W[b];
     nodes_B_.Assign(nodes_W_, motion.X);
     if (!watches_[b].AnyWithin(needed, nodes_B_)) continue;
+    if (!half) half = 0.5 * nodes_W_.LongestStep();
+    if (OutOfReach(b, *half)) continue;
     const Eigen::Matrix3d R_WB = motion.X.q.toRotationMatrix();
     const Place place = {b, motion, R_WB, R_WB * motion.omega};
-    if (!bound_W) bound_W = Bound(nodes_W);
-    if (OutOfReach(place, *bound_W)) continue;
     for (std::size_t e = 0; e < elements(); ++e) {
       if (!HasSites(e)) continue;
       const Eigen::Vector3d left_B = nodes_B_[e], right_B = nodes_B_[e + 1];

@@ -63,10 +63,6 @@ class ContactSet : public rod::Load {
     double penetration, rate;
     Vec3<double> position;
   };
-  struct Sphere {
-    Eigen::Vector3d centre;
-    double radius;
-  };
   /// A body during one search.
   struct Place {
     std::size_t body;
@@ -74,14 +70,13 @@ class ContactSet : public rod::Load {
     Eigen::Matrix3d R_WB;
     Eigen::Vector3d omega_W;
   };
-  static Sphere Bound(const std::vector<Eigen::Vector3d>& points);
   std::size_t elements() const { return first_sites_.size() - 1; }
   bool HasSites(std::size_t element) const {
     return first_sites_[element] != first_sites_[element + 1];
   }
   /// True where the whole cable is out of reach of the body by the simplest of bounds; updates the
-  /// watches.
-  bool OutOfReach(const Place& place, const Sphere& cable_W);
+  /// watches. `half`: of the longest element [m].
+  bool OutOfReach(std::size_t body, double half);
   /// True where no site of the element can be within the radius and the margin of the body; updates
   /// its watch.
   bool OutOfReach(std::size_t body, std::size_t element, const Eigen::Vector3d& left_B,
@@ -106,7 +101,7 @@ class ContactSet : public rod::Load {
     std::size_t body, element;
   };
   std::vector<Searched> searched_;  // in the last search, site by site
-  NodeRows nodes_W_, nodes_B_;      // scratch
+  PointRows nodes_W_, nodes_B_;     // scratch
   std::vector<Plane> planes_;
 };
 

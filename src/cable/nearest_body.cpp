@@ -92,8 +92,10 @@ double NearestBody::Distance(const std::vector<Pose>& nodes_W,
   const std::size_t likely_body = last_body_, likely_element = last_element_;
   if (likely_body < bodies_.size() && likely_element < elements())
     look(likely_body, likely_element);
+  const double half = 0.5 * nodes_W_.LongestStep();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     if (!watches_[b].AnyWithin(nearest, nodes_B_[b])) continue;
+    if (nearest >= 0 && bodies_[b]->IsBeyond(nearest + half, nodes_B_[b])) continue;
     for (std::size_t e = 0; e < elements(); ++e)
       if (b != likely_body || e != likely_element) look(b, e);
   }

@@ -36,8 +36,8 @@ class NearestBody {
   double reach_;
   std::vector<int> first_sites_;
   std::vector<ElementWatches> watches_;  // by body
-  NodeRows nodes_W_;
-  std::vector<NodeRows> nodes_B_;                 // by body
+  PointRows nodes_W_;
+  std::vector<PointRows> nodes_B_;                // by body
   std::size_t last_body_ = 0, last_element_ = 0;  // which were the nearest last time
 };
 
