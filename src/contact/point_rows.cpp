@@ -26,6 +26,21 @@ void Transform(std::size_t stride, const double* W, const double* R, const doubl
   }
 }
 
+COSSERAT_CABLE_KERNEL
+double LongestStepOf(std::size_t stride, std::size_t size, const double* rows) {
+  Lanes longest(0.0);
+  for (std::size_t i = 0; i < size; i += kStep) {
+    Lanes square(0.0);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double* row = rows + axis * stride + i;
+      const Lanes step = LoadLanes(row + 1) - LoadLanes(row);
+      square += step * step;
+    }
+    longest = Max(longest, square);
+  }
+  return std::sqrt(std::max({longest[0], longest[1], longest[2], longest[3]}));
+}
+
 }  // namespace
 
 void PointRows::Resize(std::size_t size) {
@@ -39,11 +54,15 @@ template <class PointOf>
 void PointRows::Fill(std::size_t size, const PointOf& point_of) {
   Resize(size);
   if (size == 0) return;
-  for (std::size_t i = 0; i < stride_; ++i) {
-    const Eigen::Vector3d& p = point_of(std::min(i, size - 1));
+  for (std::size_t i = 0; i < size; ++i) {
+    const Eigen::Vector3d& p = point_of(i);
     data_[i] = p.x();
     data_[stride_ + i] = p.y();
     data_[2 * stride_ + i] = p.z();
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    double* row = data_.data() + axis * stride_;
+    std::fill(row + size, row + stride_, row[size - 1]);
   }
 }
 
@@ -61,11 +80,6 @@ void PointRows::Assign(const PointRows& points_W, const Pose& X_WB) {
   Transform(stride_, points_W.data_.data(), R_WB.data(), X_WB.p.data(), data_.data());
 }
 
-double PointRows::LongestStep() const {
-  double square = 0;
-  for (std::size_t i = 0; i + 1 < size_; ++i)
-    square = std::max(square, ((*this)[i + 1] - (*this)[i]).squaredNorm());
-  return std::sqrt(square);
-}
+double PointRows::LongestStep() const { return LongestStepOf(stride_, size_, data_.data()); }
 
 }  // namespace cosserat_cable
