@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "cosserat_cable/math/small_eigen.h"
 
@@ -13,6 +15,11 @@ namespace {
 constexpr double kMargin = 2e-3;  // [m]
 // How far a search looks where it must look at all; bounds what the next steps can skip.
 constexpr double kSearchReach = 0.1;  // [m]
+// A cable that is so much farther away than a surface is taken into a step needs no look for the
+// next steps.
+constexpr double kFar = 2e-2;  // [m]
+// The distance of an element without sites.
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 Vec3<double> At(const ContactSite& site, const Vec3<double>& a, const Vec3<double>& b) {
   return (1 - site.xi) * a + site.xi * b;
@@ -48,62 +55,67 @@ ContactSet::ContactSet(const CableModel& model, std::vector<const Body*> bodies)
   first_sites_ = FirstSites(sites_);
   trackers_.resize(sites_.size() * bodies_.size());
   found_.resize(trackers_.size());
-  watches_.resize(elements() * bodies_.size());
+  known_.resize(elements() * bodies_.size());
+  watches_.assign(bodies_.size(), ElementWatches(elements()));
+  Reset();
   planes_.reserve(trackers_.size());
 }
 
-ContactSet::Sphere ContactSet::Bound(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::AlignedBox3d box;
-  for (const Eigen::Vector3d& p : points) box.extend(p);
-  return {box.center(), 0.5 * box.diagonal().norm()};
+bool ContactSet::OutOfReach(std::size_t body, double half) {
+  const double needed = radius_ + kMargin;
+  const bool far = bodies_[body]->IsBeyond(needed + half + kFar, nodes_B_);
+  if (!far && !bodies_[body]->IsBeyond(needed + half, nodes_B_)) return false;
+  const std::size_t first = body * elements();
+  for (std::size_t e = 0; e < elements(); ++e)
+    if (known_[first + e]) Forget(body, e);
+  if (far) watches_[body].SetAll(nodes_B_, needed + kFar);
+  return true;
 }
 
 bool ContactSet::OutOfReach(std::size_t body, std::size_t element, const Eigen::Vector3d& left_B,
                             const Eigen::Vector3d& right_B) {
-  Watch& watch = WatchOf(body, element);
+  ElementWatches& watches = watches_[body];
   const double needed = radius_ + kMargin;
-  if (watch.DistanceAt(left_B, right_B) > needed) return true;
+  if (watches.DistanceAt(element, left_B, right_B) > needed) return true;
   const double half = 0.5 * (right_B - left_B).norm();
+  const bool known = known_[body * elements() + element];
   // Sites that remember something look for themselves, as long as one of them is close.
-  if (watch.known && watch.distance <= needed + half) return false;
+  if (known && watches.distance(element) <= needed + half) return false;
   const Eigen::Vector3d middle_B = 0.5 * (left_B + right_B);
   double distance = bodies_[body]->LowerBound(middle_B);
   if (distance <= needed + half)
     distance = std::min(kSearchReach, bodies_[body]->Query(middle_B, kSearchReach).distance);
   if (distance <= needed + half) return false;
-  if (watch.known) Forget(body, element);
-  watch.left_B = left_B;
-  watch.right_B = right_B;
-  watch.distance = distance - half;
+  if (known) Forget(body, element);
+  watches.Set(element, left_B, right_B, distance - half);
   return true;
 }
 
 void ContactSet::Forget(std::size_t body, std::size_t element) {
   const auto first = trackers_.begin() + static_cast<std::ptrdiff_t>(body * sites_.size());
   std::fill(first + first_sites_[element], first + first_sites_[element + 1], ContactTracker());
-  WatchOf(body, element) = Watch();
+  known_[body * elements() + element] = false;
+  watches_[body].Forget(element);
 }
 
 void ContactSet::SearchSites(const Place& place, std::size_t element, const Eigen::Vector3d& left_B,
                              const Eigen::Vector3d& right_B) {
   searched_.push_back({place.body, element});
-  Watch& watch = WatchOf(place.body, element);
-  watch.left_B = left_B;
-  watch.right_B = right_B;
-  watch.distance = kSearchReach;
+  double nearest = kSearchReach;
   for (int i = first_sites_[element]; i < first_sites_[element + 1]; ++i) {
     const std::size_t k = place.body * sites_.size() + static_cast<std::size_t>(i);
     Found& found = found_[k];
     found.p_B = (1 - sites_[i].xi) * left_B + sites_[i].xi * right_B;
     found.clearance =
         trackers_[k].Look(*bodies_[place.body], found.p_B, radius_, kMargin, kSearchReach);
-    watch.distance = std::min(watch.distance, found.clearance.distance);
+    nearest = std::min(nearest, found.clearance.distance);
     if (!found.clearance.exact || found.clearance.distance > radius_ + kMargin) continue;
     const Eigen::Vector3d arm = place.R_WB * found.clearance.nearest;
     planes_.push_back({i, static_cast<int>(place.body), ToSmall(place.motion.X.p + arm),
                        ToSmall(place.R_WB * found.clearance.normal),
                        ToSmall(place.motion.v + place.omega_W.cross(arm))});
   }
+  watches_[place.body].Set(element, left_B, right_B, nearest);
 }
 
 void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
@@ -111,31 +123,28 @@ void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
   planes_.clear();
   searched_.clear();
   if (bodies_.empty()) return;
-  const Sphere bound_W = Bound(nodes_W);
-  nodes_B_.resize(nodes_W.size());
+  const double needed = radius_ + kMargin;
+  nodes_W_.Assign(nodes_W);
+  std::optional<double> half;
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Motion& motion = bodies_W[b];
+    nodes_B_.Assign(nodes_W_, motion.X);
+    if (!watches_[b].AnyWithin(needed, nodes_B_)) continue;
+    if (!half) half = 0.5 * nodes_W_.LongestStep();
+    if (OutOfReach(b, *half)) continue;
     const Eigen::Matrix3d R_WB = motion.X.q.toRotationMatrix();
-    const Eigen::Matrix3d R_BW = R_WB.transpose();
-    const double needed = bound_W.radius + radius_ + kMargin;
-    if (bodies_[b]->LowerBound(R_BW * (bound_W.centre - motion.X.p)) > needed) {
-      for (std::size_t e = 0; e < elements(); ++e)
-        if (WatchOf(b, e).known) Forget(b, e);
-      continue;
-    }
     const Place place = {b, motion, R_WB, R_WB * motion.omega};
-    for (std::size_t i = 0; i < nodes_W.size(); ++i) nodes_B_[i] = R_BW * (nodes_W[i] - motion.X.p);
     for (std::size_t e = 0; e < elements(); ++e) {
-      if (first_sites_[e] == first_sites_[e + 1]) continue;
-      if (!OutOfReach(b, e, nodes_B_[e], nodes_B_[e + 1]))
-        SearchSites(place, e, nodes_B_[e], nodes_B_[e + 1]);
+      if (!HasSites(e)) continue;
+      const Eigen::Vector3d left_B = nodes_B_[e], right_B = nodes_B_[e + 1];
+      if (!OutOfReach(b, e, left_B, right_B)) SearchSites(place, e, left_B, right_B);
     }
   }
 }
 
 void ContactSet::Accept() {
   for (const Searched& searched : searched_) {
-    WatchOf(searched.body, searched.element).known = true;
+    known_[searched.body * elements() + searched.element] = true;
     for (int i = first_sites_[searched.element]; i < first_sites_[searched.element + 1]; ++i) {
       const std::size_t k = searched.body * sites_.size() + static_cast<std::size_t>(i);
       trackers_[k].Accept(found_[k].p_B, found_[k].clearance);
@@ -145,7 +154,12 @@ void ContactSet::Accept() {
 
 void ContactSet::Reset() {
   std::fill(trackers_.begin(), trackers_.end(), ContactTracker());
-  std::fill(watches_.begin(), watches_.end(), Watch());
+  std::fill(known_.begin(), known_.end(), false);
+  for (ElementWatches& watches : watches_) {
+    watches = ElementWatches(elements());
+    for (std::size_t e = 0; e < elements(); ++e)
+      if (!HasSites(e)) watches.Set(e, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), kNever);
+  }
   planes_.clear();
   searched_.clear();
 }

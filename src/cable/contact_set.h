@@ -10,7 +10,7 @@
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/contact/tracker.h"
 #include "cosserat_cable/rod/load.h"
-#include "element_watch.h"
+#include "element_watches.h"
 
 namespace cosserat_cable {
 
@@ -63,14 +63,6 @@ class ContactSet : public rod::Load {
     double penetration, rate;
     Vec3<double> position;
   };
-  /// An element against one body.
-  struct Watch : ElementWatch {
-    bool known = false;  // whether its sites' trackers remember anything
-  };
-  struct Sphere {
-    Eigen::Vector3d centre;
-    double radius;
-  };
   /// A body during one search.
   struct Place {
     std::size_t body;
@@ -78,11 +70,13 @@ class ContactSet : public rod::Load {
     Eigen::Matrix3d R_WB;
     Eigen::Vector3d omega_W;
   };
-  static Sphere Bound(const std::vector<Eigen::Vector3d>& points);
   std::size_t elements() const { return first_sites_.size() - 1; }
-  Watch& WatchOf(std::size_t body, std::size_t element) {
-    return watches_[body * elements() + element];
+  bool HasSites(std::size_t element) const {
+    return first_sites_[element] != first_sites_[element + 1];
   }
+  /// True where the whole cable is out of reach of the body by the simplest of bounds; updates the
+  /// watches. `half`: of the longest element [m].
+  bool OutOfReach(std::size_t body, double half);
   /// True where no site of the element can be within the radius and the margin of the body; updates
   /// its watch.
   bool OutOfReach(std::size_t body, std::size_t element, const Eigen::Vector3d& left_B,
@@ -99,13 +93,15 @@ class ContactSet : public rod::Load {
   std::vector<int> first_sites_;
   std::vector<ContactTracker> trackers_;  // body-major
   std::vector<Found> found_;              // likewise, of the last search
-  std::vector<Watch> watches_;            // likewise, by element
+  std::vector<ElementWatches> watches_;   // by body
+  std::vector<char>
+      known_;  // body-major, by element: whether its sites' trackers remember anything
 
   struct Searched {
     std::size_t body, element;
   };
-  std::vector<Searched> searched_;        // in the last search, site by site
-  std::vector<Eigen::Vector3d> nodes_B_;  // scratch
+  std::vector<Searched> searched_;  // in the last search, site by site
+  PointRows nodes_W_, nodes_B_;     // scratch
   std::vector<Plane> planes_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cosserat_cable {
 namespace {
@@ -9,6 +10,10 @@ namespace {
 // Beyond what is the nearest now, how far a pair's distance is still told apart: it may move by so
 // much before it is asked again [m].
 constexpr double kAhead = 2e-3;
+// Distances are 1-Lipschitz, but for rounding [m].
+constexpr double kRounding = 1e-9;
+// The distance of an element without sites.
+constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -18,42 +23,44 @@ NearestBody::NearestBody(std::vector<ContactSite> sites, std::vector<const Body*
       bodies_(std::move(bodies)),
       reach_(reach),
       first_sites_(FirstSites(sites_)),
-      watches_(elements() * bodies_.size()) {}
-
-NearestBody::Pair NearestBody::PairAt(std::size_t index) const {
-  const Eigen::Vector3d* left = &nodes_B_[index / elements() * nodes_ + index % elements()];
-  return {index, left[0], left[1]};
+      watches_(bodies_.size(), ElementWatches(elements())),
+      nodes_B_(bodies_.size()) {
+  for (ElementWatches& watches : watches_)
+    for (std::size_t e = 0; e < elements(); ++e)
+      if (!HasSites(e)) watches.Set(e, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), kNever);
 }
 
 double NearestBody::Improve(const Pair& pair, double nearest) {
-  const Body& body = *bodies_[pair.index / elements()];
-  const double limit = std::min(nearest + kAhead, reach_);
-  ElementWatch& watch = watches_[pair.index];
-  watch.left_B = pair.left_B;
-  watch.right_B = pair.right_B;
-
+  const Body& body = *bodies_[pair.body];
   const Eigen::Vector3d along_B = pair.right_B - pair.left_B;
   const double length = along_B.norm();
-  watch.distance = body.LowerBound(pair.left_B + 0.5 * along_B) - 0.5 * length;
-  if (watch.distance >= nearest) return nearest;
+  const auto watch = [&](double distance) {
+    watches_[pair.body].Set(pair.element, pair.left_B, pair.right_B, distance);
+  };
+  const double at_least = body.LowerBound(pair.left_B + 0.5 * along_B) - 0.5 * length;
+  if (at_least >= nearest) {
+    watch(at_least);
+    return nearest;
+  }
 
-  // From the middle outwards: how near a site can be at most follows from the one before it.
-  const int* first = &first_sites_[pair.index % elements()];
+  const double limit = std::min(nearest + kAhead, reach_);
+  double bound = limit;
+  // From the middle outwards: how far a site can be follows from the one before it.
+  const int* first = &first_sites_[pair.element];
   const int middle = (first[0] + first[1]) / 2;
-  watch.distance = limit;
-  double known_at = sites_[middle].xi, known = -std::numeric_limits<double>::infinity();
+  double known_at = 0, known = kNever;
   const auto look = [&](int i) {
     const double xi = sites_[i].xi;
-    const double at_least = known - std::abs(xi - known_at) * length;
-    if (at_least >= nearest) {
-      watch.distance = std::min(watch.distance, at_least);
+    const double way = std::abs(xi - known_at) * length;
+    if (i != middle && known - way >= nearest) {
+      bound = std::min(bound, known - way);
       return;
     }
     // Where nothing is within the limit, the others of this element are hardly nearer.
-    const double reach = limit + 0.5 * length;
+    const double reach = std::min(limit + 0.5 * length, known + way + kRounding);
     known = std::min(reach, body.Query(pair.left_B + xi * along_B, reach).distance);
     known_at = xi;
-    watch.distance = std::min(watch.distance, known);
+    bound = std::min(bound, known);
     nearest = std::min(nearest, known);
   };
   look(middle);
@@ -62,33 +69,36 @@ double NearestBody::Improve(const Pair& pair, double nearest) {
   known = from_middle;
   known_at = sites_[middle].xi;
   for (int i = middle - 1; i >= first[0]; --i) look(i);
+  watch(bound);
   return nearest;
 }
 
 double NearestBody::Distance(const std::vector<Pose>& nodes_W,
                              const std::vector<Motion>& bodies_W) {
-  nodes_ = nodes_W.size();
-  nodes_B_.resize(nodes_ * bodies_.size());
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const Eigen::Matrix3d R_BW = bodies_W[b].X.q.toRotationMatrix().transpose();
-    for (std::size_t i = 0; i < nodes_; ++i)
-      nodes_B_[b * nodes_ + i] = R_BW * (nodes_W[i].p - bodies_W[b].X.p);
-  }
+  nodes_W_.Assign(nodes_W);
+  for (std::size_t b = 0; b < bodies_.size(); ++b) nodes_B_[b].Assign(nodes_W_, bodies_W[b].X);
   double nearest = reach_;
-  const auto look = [&](std::size_t index) {
-    const int* first = &first_sites_[index % elements()];
-    if (first[0] == first[1]) return;
-    const Pair pair = PairAt(index);
-    if (watches_[index].DistanceAt(pair.left_B, pair.right_B) >= nearest) return;
+  const auto look = [&](std::size_t b, std::size_t e) {
+    const Pair pair = {b, e, nodes_B_[b][e], nodes_B_[b][e + 1]};
+    if (watches_[b].DistanceAt(e, pair.left_B, pair.right_B) >= nearest) return;
     const double improved = Improve(pair, nearest);
-    if (improved < nearest) last_ = index;
+    if (improved < nearest) {
+      last_body_ = b;
+      last_element_ = e;
+    }
     nearest = improved;
   };
   // What was the nearest will hardly be far now: with it first, little else needs a look.
-  const std::size_t likely = last_;
-  if (likely < watches_.size()) look(likely);
-  for (std::size_t index = 0; index < watches_.size(); ++index)
-    if (index != likely) look(index);
+  const std::size_t likely_body = last_body_, likely_element = last_element_;
+  if (likely_body < bodies_.size() && likely_element < elements())
+    look(likely_body, likely_element);
+  const double half = 0.5 * nodes_W_.LongestStep();
+  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (!watches_[b].AnyWithin(nearest, nodes_B_[b])) continue;
+    if (nearest >= 0 && bodies_[b]->IsBeyond(nearest + half, nodes_B_[b])) continue;
+    for (std::size_t e = 0; e < elements(); ++e)
+      if (b != likely_body || e != likely_element) look(b, e);
+  }
   return nearest < reach_ ? nearest : std::numeric_limits<double>::infinity();
 }
 

@@ -20,11 +20,13 @@ class NearestBody {
  private:
   /// An element against one body, its ends in the body's frame [m].
   struct Pair {
-    std::size_t index;  // of its watch
+    std::size_t body, element;
     Eigen::Vector3d left_B, right_B;
   };
   std::size_t elements() const { return first_sites_.size() - 1; }
-  Pair PairAt(std::size_t index) const;
+  bool HasSites(std::size_t element) const {
+    return first_sites_[element] != first_sites_[element + 1];
+  }
   /// Asks the pair's sites as far as they could be nearer than `nearest` [m]; returns the smallest
   /// distance found, or `nearest`.
   double Improve(const Pair& pair, double nearest);
@@ -33,10 +35,10 @@ class NearestBody {
   std::vector<const Body*> bodies_;
   double reach_;
   std::vector<int> first_sites_;
-  std::vector<ElementWatch> watches_;     // body-major
-  std::vector<Eigen::Vector3d> nodes_B_;  // likewise, in that body's frame [m]
-  std::size_t nodes_ = 0;
-  std::size_t last_ = 0;  // the pair that was the nearest last time
+  std::vector<ElementWatches> watches_;  // by body
+  PointRows nodes_W_;
+  std::vector<PointRows> nodes_B_;                // by body
+  std::size_t last_body_ = 0, last_element_ = 0;  // which were the nearest last time
 };
 
 }  // namespace cosserat_cable

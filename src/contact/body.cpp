@@ -1,5 +1,6 @@
 #include "cosserat_cable/contact/body.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "mesh_store.h"
@@ -62,6 +63,12 @@ double Body::LowerBound(const Eigen::Vector3d& p_B) const {
     bound = std::min(bound, at_least);
   }
   return bound;
+}
+
+bool Body::IsBeyond(double margin, const PointRows& points_B) const {
+  return std::all_of(impl_->surfaces.begin(), impl_->surfaces.end(), [&](const auto& surface) {
+    return surface->envelope().IsBeyond(margin, points_B);
+  });
 }
 
 const Eigen::AlignedBox3d& Body::bounds() const { return impl_->bounds; }

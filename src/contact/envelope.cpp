@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "cosserat_cable/math/kernel.h"
+#include "cosserat_cable/math/lanes.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -46,6 +49,37 @@ Radii RadiiAbout(int axis, const TriangleMesh& mesh) {
   return radii;
 }
 
+/// What a point must exceed to be beyond: in the coordinates along the axis and across it, squares
+/// of lengths where the name says so.
+struct Limits {
+  double low[3], high[3];  // of the box, the axis first
+  double margin_squared, outer_squared, inner_squared;
+};
+
+// Above zero where a point of the rows (that along the axis first) is not beyond.
+COSSERAT_CABLE_KERNEL
+double Within(const Limits& limits, const double* along, const double* u, const double* v,
+              std::size_t count) {
+  const double* rows[3] = {along, u, v};
+  Lanes worst(-1.0);
+  for (std::size_t i = 0; i < count; i += Lanes::kCount) {
+    Lanes outside[3], square[3];
+    for (int k = 0; k < 3; ++k) {
+      const Lanes p = LoadLanes(rows[k] + i);
+      outside[k] = Max(Max(Lanes(limits.low[k]) - p, p - Lanes(limits.high[k])), Lanes(0.0));
+      square[k] = p * p;
+    }
+    const Lanes radius = square[1] + square[2];
+    const Lanes box = outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2];
+    // Beyond by any of the bounds is beyond.
+    Lanes within = Lanes(limits.margin_squared) - box;
+    within = Min(within, Lanes(limits.outer_squared) - radius);
+    within = Min(within, radius - Lanes(limits.inner_squared));
+    worst = Max(worst, within);
+  }
+  return std::max({worst[0], worst[1], worst[2], worst[3]});
+}
+
 }  // namespace
 
 Envelope::Envelope(const Eigen::AlignedBox3d& box) : box_(box) {
@@ -75,6 +109,21 @@ double Envelope::Distance(const Eigen::Vector3d& p) const {
   const double radial = std::max({radius - outer_, inner_ - radius, 0.0});
   const double along = std::max({box_.min()[axis_] - p[axis_], p[axis_] - box_.max()[axis_], 0.0});
   return std::sqrt(std::max(radial * radial + along * along, box_.squaredExteriorDistance(p)));
+}
+
+bool Envelope::IsBeyond(double margin, const PointRows& points) const {
+  Limits limits;
+  for (int k = 0; k < 3; ++k) {
+    limits.low[k] = box_.min()[(axis_ + k) % 3];
+    limits.high[k] = box_.max()[(axis_ + k) % 3];
+  }
+  limits.margin_squared = margin * margin;
+  limits.outer_squared = (outer_ + margin) * (outer_ + margin);
+  // Nothing is nearer to the axis than that where there is no room for it.
+  limits.inner_squared = inner_ > margin ? (inner_ - margin) * (inner_ - margin) : -1;
+  const double* rows[3] = {points.x(), points.y(), points.z()};
+  return Within(limits, rows[axis_], rows[(axis_ + 1) % 3], rows[(axis_ + 2) % 3],
+                points.padded_size()) < 0;
 }
 
 }  // namespace cosserat_cable

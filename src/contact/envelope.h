@@ -1,6 +1,7 @@
 // A simple solid around a piece of a body: how far a point is at least, at the cost of one root.
 #pragma once
 
+#include "cosserat_cable/contact/point_rows.h"
 #include "cosserat_cable/contact/shape.h"
 
 namespace cosserat_cable {
@@ -20,6 +21,8 @@ class Envelope {
   const Eigen::AlignedBox3d& box() const { return box_; }
   /// Not more than the distance from `p` [m] to the solid; above zero only outside of it.
   double Distance(const Eigen::Vector3d& p) const;
+  /// True where all points are farther than `margin` >= 0 [m] from the solid by that bound.
+  bool IsBeyond(double margin, const PointRows& points) const;
 
  private:
   Eigen::AlignedBox3d box_;

@@ -26,7 +26,7 @@ bool IsUsable(double time, const Pose& X) {
          std::abs(X.q.norm() - 1) < kMaxNormError;
 }
 
-/// NaturalSplineWeights with a memory of one: the joints of one message share their stamps, so the
+/// NaturalSplineWeights with a short memory: the joints of one message share their stamps, so the
 /// curves of all of them ask for the same weights one after another.
 const SplineWeights& RecalledWeights(const std::array<double, kMaxWindow>& times, int count,
                                      int knot, SplineDegree degree) {
@@ -36,13 +36,19 @@ const SplineWeights& RecalledWeights(const std::array<double, kMaxWindow>& times
     SplineDegree degree = SplineDegree::kCubic;
     SplineWeights weights;
   };
-  thread_local Memory last;
-  const bool same = last.count == count && last.knot == knot && last.degree == degree &&
-                    std::equal(times.begin(), times.begin() + count, last.times.begin());
-  if (!same) {
-    last = {times, count, knot, degree, NaturalSplineWeights(times.data(), count, knot, degree)};
+  // One for each stream of messages that edges take turns with, such as joints and tf.
+  thread_local std::array<Memory, 4> memory;
+  thread_local std::size_t oldest = 0;
+  for (const Memory& known : memory) {
+    if (known.count == count && known.knot == knot && known.degree == degree &&
+        std::equal(times.begin(), times.begin() + count, known.times.begin())) {
+      return known.weights;
+    }
   }
-  return last.weights;
+  Memory& fresh = memory[oldest];
+  oldest = (oldest + 1) % memory.size();
+  fresh = {times, count, knot, degree, NaturalSplineWeights(times.data(), count, knot, degree)};
+  return fresh.weights;
 }
 
 /// The logarithm of q that is nearest to `previous`, so that a window may span more than a turn.
@@ -211,10 +217,16 @@ Motion PoseCurve::MotionAt(int knot, const Window& window) const {
 
 void PoseCurve::FinalizeKnots() {
   for (; final_count_ < size(); ++final_count_) {
-    const Window window = WindowOf(final_count_);
-    if (!window.complete) return;
-    knots_[final_count_].motion = MotionAt(final_count_, window);
+    if (!WindowOf(final_count_).complete) return;
   }
+}
+
+// A window that is complete stays what it is: the derivatives can wait until they are needed, which
+// those of many edges never are.
+void PoseCurve::Know(int knot) {
+  if (knots_[knot].known || knot >= final_count_) return;
+  knots_[knot].motion = MotionAt(knot, WindowOf(knot));
+  knots_[knot].known = true;
 }
 
 int PoseCurve::IntervalAt(double time) const {
@@ -239,7 +251,7 @@ Motion PoseCurve::Evaluate(double time) const {
 
 MotionPiece PoseCurve::PieceFrom(int knot, double start) const {
   const auto motion = [this](int i) {
-    return i < final_count_ ? knots_[i].motion : MotionAt(i, WindowOf(i));
+    return knots_[i].known ? knots_[i].motion : MotionAt(i, WindowOf(i));
   };
   return {motion(knot), motion(knot + 1), knots_[knot + 1].time - start};
 }
@@ -250,6 +262,8 @@ Motion PoseCurve::Follow(double time) {
     if (time < begin_time() || time >= ready_until()) return Evaluate(time);
     const int i = IntervalAt(time);
     if (knots_[i + 1].gap_before) return Evaluate(time);
+    Know(i);
+    Know(i + 1);
     followed_ = FollowedPiece{knots_[i].time, knots_[i + 1].time, PieceFrom(i, knots_[i].time)};
   }
   return followed_->motion.At(time - followed_->begin);
@@ -263,9 +277,9 @@ bool PoseCurve::InGap(double time) const {
 
 void PoseCurve::DropBefore(double time) {
   if (size() < 2) return;
-  // The knots that are not final yet need their windows; the last one carries on the stream.
-  const int needed = std::max(final_count_ - kWindow, 0);
-  const int drop = std::min({IntervalAt(time), needed, size() - 1});
+  // The knots that are not final yet need their windows, and so do those whose derivatives are not
+  // known yet.
+  const int drop = std::max(std::min(IntervalAt(time), final_count_) - kWindow, 0);
   knots_.erase(knots_.begin(), knots_.begin() + drop);
   final_count_ -= drop;
   start_ -= drop;

@@ -39,22 +39,23 @@ class NodeSink : public TopicSink {
     AddValue("peak memory [bytes]", PeakMemory(), &status);
     extended.status.push_back(status);
     TopicSink::Diagnostics(extended);
-    last_ = Clock::now();
+    last_ = last_news_ = Clock::now();
     ROS_INFO_ONCE("cables are %.2f s behind the clock: the motion curve waits for later samples",
                   latency);
   }
 
-  double SecondsSinceLast() const {
-    return std::chrono::duration<double>(Clock::now() - last_).count();
-  }
-  void ReportWaiting(const std::vector<std::string>& reasons) {
+  double SecondsSinceLast() const { return SecondsSince(last_); }
+  /// Why nothing moves: `reasons` before the start; after it, that no input came.
+  void ReportWaiting(bool started, const std::vector<std::string>& reasons) {
     diagnostic_msgs::DiagnosticArray message;
     message.header.stamp = ros::Time::now();
     diagnostic_msgs::DiagnosticStatus status;
     status.name = "cosserat_cable: node";
     status.hardware_id = "none";
     status.level = diagnostic_msgs::DiagnosticStatus::WARN;
-    status.message = "waiting for transforms";
+    status.message = started ? "no new motion: the recording ended, or transforms stopped"
+                             : "waiting for transforms";
+    if (started) AddValue("without new motion [s]", SecondsSince(last_news_), &status);
     for (const std::string& reason : reasons) AddValue("missing", reason, &status);
     message.status.push_back(status);
     TopicSink::Diagnostics(message);
@@ -62,7 +63,12 @@ class NodeSink : public TopicSink {
   }
 
  private:
-  Clock::time_point last_ = Clock::now();
+  static double SecondsSince(Clock::time_point time) {
+    return std::chrono::duration<double>(Clock::now() - time).count();
+  }
+
+  Clock::time_point last_ = Clock::now();       // message
+  Clock::time_point last_news_ = Clock::now();  // from the simulation
 };
 
 // The parameter robot_description as a file, for the one reader of vehicles; removed at the end.
@@ -134,7 +140,9 @@ ExitCode RunNode(const NodeOptions& options) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kSpinSeconds));
     engine.Advance(&sink);
     for (const std::string& news : engine.TakeNews()) ROS_WARN_STREAM(news);
-    if (sink.SecondsSinceLast() > kWaitingPeriod) sink.ReportWaiting(engine.links().Missing());
+    if (sink.SecondsSinceLast() > kWaitingPeriod) {
+      sink.ReportWaiting(engine.started(), engine.links().Missing());
+    }
   }
 
   Summary summary = engine.MakeSummary();

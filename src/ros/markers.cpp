@@ -64,29 +64,33 @@ Marker MakeTube(const CableSimulation& cable, const Pose& X_RW, std::int64_t tim
   const auto sides = static_cast<std::size_t>(style.sides);
   std::vector<geometry_msgs::Point> points(rings * sides);
   std::vector<std_msgs::ColorRGBA> colors(rings);
+  std::vector<Eigen::Vector3d> rim(sides);
+  for (std::size_t j = 0; j < sides; ++j) {
+    const double angle = 2 * M_PI * static_cast<double>(j) / static_cast<double>(sides);
+    rim[j] = model.diameter / 2 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+  }
   for (std::size_t i = 0; i < rings; ++i) {
     const double s = model.length * static_cast<double>(i) / static_cast<double>(rings - 1);
     const Pose X_RS = X_RW * InterpolateNodes(nodes, model.length, s);
     colors[i] = Color(ViridisColor(CurvatureAt(curvatures, model.length, s) / scale));
-    for (std::size_t j = 0; j < sides; ++j) {
-      const double angle = 2 * M_PI * static_cast<double>(j) / static_cast<double>(sides);
-      const Eigen::Vector3d rim(std::cos(angle), std::sin(angle), 0);
-      points[i * sides + j] = ToPoint(X_RS * Eigen::Vector3d(model.diameter / 2 * rim));
-    }
+    const Eigen::Matrix3d R_RS = X_RS.q.toRotationMatrix();
+    for (std::size_t j = 0; j < sides; ++j) points[i * sides + j] = ToPoint(X_RS.p + R_RS * rim[j]);
   }
-  tube.points.reserve(6 * (rings - 1) * sides);
-  tube.colors.reserve(tube.points.capacity());
+  tube.points.resize(6 * (rings - 1) * sides);
+  tube.colors.resize(tube.points.size());
+  std::size_t corner = 0;
   const auto add = [&](std::size_t ring, std::size_t side) {
-    tube.points.push_back(points[ring * sides + side % sides]);
-    tube.colors.push_back(colors[ring]);
+    tube.points[corner] = points[ring * sides + side];
+    tube.colors[corner++] = colors[ring];
   };
   for (std::size_t i = 0; i + 1 < rings; ++i) {
     for (std::size_t j = 0; j < sides; ++j) {
+      const std::size_t next = j + 1 < sides ? j + 1 : 0;
       add(i, j);
-      add(i, j + 1);
-      add(i + 1, j + 1);
+      add(i, next);
+      add(i + 1, next);
       add(i, j);
-      add(i + 1, j + 1);
+      add(i + 1, next);
       add(i + 1, j);
     }
   }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "cosserat_cable/contact/point_rows.h"
 #include "cosserat_cable/contact/shape.h"
 
 namespace cosserat_cable {
@@ -58,6 +59,8 @@ class Body {
   /// A bound from simple solids around the shapes alone [m]: the signed distance is no less. -inf
   /// within one.
   double LowerBound(const Eigen::Vector3d& p_B) const;
+  /// True where such bounds of all `points_B` exceed `margin` [m] >= 0.
+  bool IsBeyond(double margin, const PointRows& points_B) const;
 
   /// Axis-aligned box that holds all shapes, in B. Empty where there are none.
   const Eigen::AlignedBox3d& bounds() const;

@@ -88,7 +88,8 @@ class PoseCurve {
  private:
   struct Knot {
     double time = 0;
-    Motion motion;             ///< its pose; its derivatives once the knot is final
+    Motion motion;             ///< its pose; its derivatives once they were asked for
+    bool known = false;        ///< whether they were, since the knot is final
     bool hole_before = false;  ///< also true for a gap
     bool gap_before = false;
   };
@@ -105,6 +106,7 @@ class PoseCurve {
   Window WindowOf(int knot) const;
   Motion MotionAt(int knot, const Window& window) const;
   void FinalizeKnots();
+  void Know(int knot);
   void CountPeriod(double period);
   void SettleStart();
   int IntervalAt(double time) const;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,13 +21,10 @@ class ApexHistory {
   double PeakToPeak() const;
 
  private:
-  struct Sample {
-    std::int64_t time;
-    Eigen::Vector3d position;
-  };
   std::int64_t window_;
-  std::vector<Sample> samples_;
-  std::size_t first_ = 0;  // of the window, in samples_
+  std::vector<std::int64_t> times_;
+  std::array<std::vector<double>, 3> positions_;  // by coordinate
+  std::size_t first_ = 0;  // of the window
 };
 
 }  // namespace cosserat_cable
