@@ -23,15 +23,20 @@
 
 namespace cosserat_cable::rod {
 
-/// Section law as the time step sees it: stress = offset + C (strain - strain0) + V rate. Internal
-/// variables, where a law has them, are condensed into an offset per element, C and V once per
-/// step.
+/// Section law as the time step sees it: F = offset + C (Gamma - Gamma0) + V dGamma/dt, M = offset
+/// + C K + V dK/dt. Internal variables, where a law has them, and the unstressed curvature are
+/// condensed into an offset per element; C and V hold for a whole rod and step.
 template <class T>
 struct ElementLaw {
-  T h;                     ///< length [m]
-  Vec3<T> C_F, C_M;        ///< [N], [N m^2]
-  Vec3<T> V_F, V_M;        ///< [N s], [N m^2 s]
-  Vec3<T> gamma0, kappa0;  ///< unstressed strains [1], [1/m]
+  T h;               ///< length [m]
+  Vec3<T> C_F, C_M;  ///< [N], [N m^2]
+  Vec3<T> V_F, V_M;  ///< [N s], [N m^2 s]
+  Vec3<T> gamma0;    ///< unstressed strain [1]
+};
+
+template <class T>
+struct ElementOffset {
+  Vec3<T> F, M;  ///< [N], [N m]
 };
 
 template <class T>
@@ -79,9 +84,9 @@ void EvaluateStrain(const Node<T>& a, const Node<T>& b, const T& h, ElementState
 
 /// Force and moment of the section law at strains that EvaluateStrain has set.
 template <class T>
-void EvaluateStress(const ElementLaw<T>& law, const Vec3<T>& offset_F, ElementState<T>* e) {
-  e->n = offset_F + Scale(law.C_F, e->gamma - law.gamma0) + Scale(law.V_F, e->gamma_dot);
-  e->m = Scale(law.C_M, e->kappa - law.kappa0) + Scale(law.V_M, e->kappa_dot);
+void EvaluateStress(const ElementLaw<T>& law, const ElementOffset<T>& offset, ElementState<T>* e) {
+  e->n = offset.F + Scale(law.C_F, e->gamma - law.gamma0) + Scale(law.V_F, e->gamma_dot);
+  e->m = offset.M + Scale(law.C_M, e->kappa) + Scale(law.V_M, e->kappa_dot);
 }
 
 /// Generalised forces on the two nodes: what the element adds to M dv/dt + ... = 0.

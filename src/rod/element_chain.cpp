@@ -17,8 +17,7 @@ ElementLaw<Lanes> Broadcast(const ElementLaw<double>& law) {
           Broadcast(law.C_M),
           Broadcast(law.V_F),
           Broadcast(law.V_M),
-          Broadcast(law.gamma0),
-          Broadcast(law.kappa0)};
+          Broadcast(law.gamma0)};
 }
 
 /// Four nodes side by side.
@@ -106,23 +105,22 @@ constexpr int Entries(int elements, Lanes*) { return elements; }
 template <class T>
 ElementChain<T>::ElementChain(int elements)
     : elements_(elements), states_(Entries(elements, static_cast<T*>(nullptr))) {
-  offsets_.resize(states_.size());
-  ClearOffsets();
+  const Vec3<Lanes> none{0.0, 0.0, 0.0};
+  offsets_.assign(states_.size(), {none, none});
 }
 
 template <class T>
-void ElementChain<T>::ClearOffsets() {
-  for (Vec3<Lanes>& offset : offsets_) offset = {0.0, 0.0, 0.0};
-}
-
-template <class T>
-void ElementChain<T>::SetOffset(int element, int lane, const Vec3<double>& offset_F) {
+void ElementChain<T>::SetOffset(int element, int lane, const Vec3<double>& offset_F,
+                                const Vec3<double>& offset_M) {
   const bool one = kLaneCount<T> == 1;
-  Vec3<Lanes>& entry = offsets_[one ? element / kLanes : element];
+  ElementOffset<Lanes>& entry = offsets_[one ? element / kLanes : element];
   const int l = one ? element % kLanes : lane;
-  SetLane(&entry.x, l, offset_F.x);
-  SetLane(&entry.y, l, offset_F.y);
-  SetLane(&entry.z, l, offset_F.z);
+  SetLane(&entry.F.x, l, offset_F.x);
+  SetLane(&entry.F.y, l, offset_F.y);
+  SetLane(&entry.F.z, l, offset_F.z);
+  SetLane(&entry.M.x, l, offset_M.x);
+  SetLane(&entry.M.y, l, offset_M.y);
+  SetLane(&entry.M.z, l, offset_M.z);
 }
 
 template <class T>

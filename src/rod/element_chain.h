@@ -22,9 +22,9 @@ class ElementChain {
  public:
   explicit ElementChain(int elements);
 
-  /// What the section law adds to the force of an element of the rod in `lane` in this step [N].
-  void SetOffset(int element, int lane, const Vec3<double>& offset_F);
-  void ClearOffsets();
+  /// What the section law adds to the force [N] and moment [N m] of an element of the rod in `lane`
+  /// in this step or in statics: internal variables, and -C_M K0 of the unstressed curvature.
+  void SetOffset(int element, int lane, const Vec3<double>& offset_F, const Vec3<double>& offset_M);
 
   /// Strains, rates and stresses between the `elements + 1` nodes; subtracts what they exert from
   /// `rhs`.
@@ -42,7 +42,7 @@ class ElementChain {
   // Of one rod, element e is lane e % 4 of entry e / 4; of four, lane l of entry e belongs to rod
   // l.
   std::vector<ElementState<Lanes>> states_;
-  std::vector<Vec3<Lanes>> offsets_;
+  std::vector<ElementOffset<Lanes>> offsets_;
 };
 
 }  // namespace cosserat_cable::rod

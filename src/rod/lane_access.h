@@ -55,7 +55,6 @@ inline void SetLane(ElementLaw<Lanes>* law, int lane, const ElementLaw<double>& 
   SetLane(&law->V_F, lane, value.V_F);
   SetLane(&law->V_M, lane, value.V_M);
   SetLane(&law->gamma0, lane, value.gamma0);
-  SetLane(&law->kappa0, lane, value.kappa0);
 }
 
 template <class T>

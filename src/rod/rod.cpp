@@ -49,7 +49,10 @@ void Rod::AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
 SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* load) {
   Impl& m = *impl_;
   m.w.law = m.LawOfStep(dt);
-  for (int e = 0; e < m.model.elements; ++e) m.w.chain.SetOffset(e, 0, m.Offset(e));
+  for (int e = 0; e < m.model.elements; ++e) {
+    const ElementOffset<double> offset = m.Offset(e);
+    m.w.chain.SetOffset(e, 0, offset.F, offset.M);
+  }
   m.HoldEnds(a, b);
   SolveReport report;
   const bool active = true;

@@ -28,7 +28,10 @@ struct RodBatch::Impl {
       SetLane(&w.algorithm[i], lane, rod.w.algorithm[i]);
     }
     SetLane(&w.law, lane, rod.LawOfStep(dt));
-    for (int e = 0; e < w.count - 1; ++e) w.chain.SetOffset(e, lane, rod.Offset(e));
+    for (int e = 0; e < w.count - 1; ++e) {
+      const ElementOffset<double> offset = rod.Offset(e);
+      w.chain.SetOffset(e, lane, offset.F, offset.M);
+    }
     for (int end : {0, w.count - 1}) {
       SetLane(&w.trial[end], lane, rod.w.trial[end]);
       SetLane(&w.trial_rate[end], lane, rod.w.trial_rate[end]);

@@ -57,9 +57,9 @@ void Rod::Impl::PrepareStatics() {
            ToSmall(model.section.C_M),
            none,
            none,
-           ToSmall(model.section.gamma0),
-           ToSmall(model.section.kappa0)};
-  w.chain.ClearOffsets();
+           ToSmall(model.section.gamma0)};
+  const V3 unbend = MomentOfUnstressedCurvature();
+  for (int e = 0; e < model.elements; ++e) w.chain.SetOffset(e, 0, none, unbend);
 }
 
 ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
@@ -70,12 +70,16 @@ ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
           ToSmall(model.section.C_M),
           {shear1.V(), shear2.V(), model.section.V_F.z()},
           ToSmall(model.section.V_M),
-          ToSmall(model.section.gamma0),
-          ToSmall(model.section.kappa0)};
+          ToSmall(model.section.gamma0)};
 }
 
-V3 Rod::Impl::Offset(int element) const {
-  return {shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0};
+V3 Rod::Impl::MomentOfUnstressedCurvature() const {
+  return -Scale(ToSmall(model.section.C_M), ToSmall(model.section.kappa0));
+}
+
+ElementOffset<double> Rod::Impl::Offset(int element) const {
+  return {{shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0},
+          MomentOfUnstressedCurvature()};
 }
 
 void Rod::Impl::HoldEnds(const Motion& a, const Motion& b) {
@@ -104,9 +108,10 @@ template void Rod::Impl::TakeStresses(const StepWorkspace<Lanes>&, int, bool);
 
 double Rod::Impl::StrainEnergy() const {
   double energy = 0;
+  const V3 kappa0 = ToSmall(model.section.kappa0);
   for (int e = 0; e < model.elements; ++e) {
     const ElementStress stress_of = w.chain.Stress(e, 0);
-    const V3 gamma = stress_of.gamma - w.law.gamma0, kappa = stress_of.kappa - w.law.kappa0;
+    const V3 gamma = stress_of.gamma - w.law.gamma0, kappa = stress_of.kappa - kappa0;
     energy += 0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa)));
   }
   return energy;

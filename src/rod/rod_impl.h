@@ -34,7 +34,11 @@ struct Rod::Impl {
   void PrepareStatics();
   /// The section law over a step of `dt` [s], without the elements' offsets.
   ElementLaw<double> LawOfStep(double dt);
-  V3 Offset(int element) const;
+  /// -C_M K0 [N m], which the moment of every element has besides C_M K.
+  V3 MomentOfUnstressedCurvature() const;
+  /// What internal variables and the unstressed curvature add to the stresses of an element in a
+  /// step.
+  ElementOffset<double> Offset(int element) const;
   /// The end nodes of the next iterate, where they are held.
   void HoldEnds(const Motion& a, const Motion& b);
 

@@ -30,7 +30,7 @@ class ElementTest : public ::testing::Test {
   ElementState<double> Evaluate(const Node<double>& a, const Node<double>& b) const {
     ElementState<double> e;
     EvaluateStrain(a, b, kH, &e);
-    EvaluateStress(law_, V{}, &e);
+    EvaluateStress(law_, {}, &e);
     return e;
   }
 
@@ -45,7 +45,7 @@ class ElementTest : public ::testing::Test {
   std::mt19937 rng_{7};
   std::normal_distribution<double> normal_;
   Node<double> a_{}, b_{};
-  ElementLaw<double> law_{kH, {667, 600, 2000}, {.008, .009, .006}, V{}, V{}, {0, 0, 1}, V{}};
+  ElementLaw<double> law_{kH, {667, 600, 2000}, {.008, .009, .006}, V{}, V{}, {0, 0, 1}};
 };
 
 Node<double> Moved(Node<double> n, int component, double by) {
