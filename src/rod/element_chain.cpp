@@ -156,20 +156,6 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
 }
 
 template <>
-COSSERAT_CABLE_KERNEL void ElementChain<Lanes>::Evaluate(const Node<Lanes>* nodes,
-                                                         const ElementLaw<Lanes>& law,
-                                                         Vec6<Lanes>* rhs) {
-  const ScaledLaw<Lanes> scaled(law);
-  one_over_h_ = scaled.one_over_h;
-  for (int e = 0; e < elements_; ++e) {
-    ElementState<Lanes>& state = states_[e];
-    EvaluateStrain(nodes[e], nodes[e + 1], &state);
-    EvaluateStress(scaled, offsets_[e], &state);
-    AddForces(EvaluateForces(state), &rhs[e], &rhs[e + 1]);
-  }
-}
-
-template <>
 COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
     const double& h, const Vec3<double>& C_F, const Vec3<double>& C_M,
     BlockTridiagonal<double>* system) const {
@@ -185,16 +171,6 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
   }
 }
 
-template <>
-COSSERAT_CABLE_KERNEL void ElementChain<Lanes>::AssembleTangent(
-    const Lanes& h, const Vec3<Lanes>& C_F, const Vec3<Lanes>& C_M,
-    BlockTridiagonal<Lanes>* system) const {
-  const TangentLaw<Lanes> law(h, C_F, C_M);
-  ClearFront(system);
-  for (int e = 0; e < elements_; ++e) AddTangent(EvaluateTangent(states_[e], law), e, system);
-}
-
 template class ElementChain<double>;
-template class ElementChain<Lanes>;
 
 }  // namespace cosserat_cable::rod

@@ -115,7 +115,7 @@ SolveReport Rod::Equilibrate(const Load* load) {
 
   // At the clamps, what is left of the forces is what they must supply.
   if (load) AddLoad(*load, 0, false, 0.0, &m.w);
-  m.TakeIterate(true);
+  m.TakeRest();
   m.w.node = m.w.trial;
   std::fill(m.w.rate.begin(), m.w.rate.end(), NodeRates<double>{});
   std::fill(m.w.algorithm.begin(), m.w.algorithm.end(), NodeRates<double>{});

@@ -1,7 +1,7 @@
 // What belongs to one lane of the kernel's types, in and out.
 #pragma once
 
-#include "step_workspace.h"
+#include "step_chain.h"
 
 namespace cosserat_cable::rod {
 
@@ -19,36 +19,30 @@ void SetLane(Vec3<T>* v, int lane, const Vec3<double>& value) {
   SetLane(&v->z, lane, value.z);
 }
 
-inline Quat<double> GetLane(const Quat<Lanes>& q, int lane) {
-  return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};
-}
-inline void SetLane(Quat<Lanes>* q, int lane, const Quat<double>& value) {
+template <class T>
+void SetLane(Quat<T>* q, int lane, const Quat<double>& value) {
   SetLane(&q->w, lane, value.w);
   SetLane(&q->x, lane, value.x);
   SetLane(&q->y, lane, value.y);
   SetLane(&q->z, lane, value.z);
 }
 
-inline Node<double> GetLane(const Node<Lanes>& node, int lane) {
-  return {GetLane(node.r, lane), GetLane(node.q, lane), GetLane(node.v, lane),
-          GetLane(node.omega, lane)};
-}
-inline void SetLane(Node<Lanes>* node, int lane, const Node<double>& value) {
+template <class T>
+void SetLane(Node<T>* node, int lane, const Node<double>& value) {
   SetLane(&node->r, lane, value.r);
   SetLane(&node->q, lane, value.q);
   SetLane(&node->v, lane, value.v);
   SetLane(&node->omega, lane, value.omega);
 }
 
-inline NodeRates<double> GetLane(const NodeRates<Lanes>& rates, int lane) {
-  return {GetLane(rates.v, lane), GetLane(rates.omega, lane)};
-}
-inline void SetLane(NodeRates<Lanes>* rates, int lane, const NodeRates<double>& value) {
+template <class T>
+void SetLane(NodeRates<T>* rates, int lane, const NodeRates<double>& value) {
   SetLane(&rates->v, lane, value.v);
   SetLane(&rates->omega, lane, value.omega);
 }
 
-inline void SetLane(ElementLaw<Lanes>* law, int lane, const ElementLaw<double>& value) {
+template <class T>
+void SetLane(ElementLaw<T>* law, int lane, const ElementLaw<double>& value) {
   SetLane(&law->h, lane, value.h);
   SetLane(&law->C_F, lane, value.C_F);
   SetLane(&law->C_M, lane, value.C_M);

@@ -1,8 +1,8 @@
 // One lane of a workspace, as a load sees it and changes it.
 #pragma once
 
+#include "cosserat_cable/math/lanes.h"
 #include "cosserat_cable/rod/load.h"
-#include "lane_access.h"
 #include "step_workspace.h"
 
 namespace cosserat_cable::rod {
@@ -13,8 +13,8 @@ class LaneView : public Centreline {
  public:
   LaneView(const StepWorkspace<T>* workspace, int lane) : workspace_(*workspace), lane_(lane) {}
   int elements() const override { return workspace_.count - 1; }
-  Vec3<double> position(int i) const override { return GetLane(workspace_.trial[i].r, lane_); }
-  Vec3<double> velocity(int i) const override { return GetLane(workspace_.trial[i].v, lane_); }
+  Vec3<double> position(int i) const override { return workspace_.trial[i].r; }
+  Vec3<double> velocity(int i) const override { return workspace_.trial[i].v; }
 
  private:
   const StepWorkspace<T>& workspace_;

@@ -1,7 +1,7 @@
 #include "cosserat_cable/rod/rod.h"
 
 #include "rod_impl.h"
-#include "time_step.h"
+#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -35,7 +35,7 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   m.w.trial = m.w.node;
   m.PrepareStatics();
   EvaluateForces(&m.w);
-  m.TakeIterate(true);
+  m.TakeRest();
 }
 
 void Rod::AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
@@ -48,23 +48,25 @@ void Rod::AddRigidMotion(const Eigen::Vector3d& p, const Eigen::Vector3d& v,
 
 SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* load) {
   Impl& m = *impl_;
-  m.w.law = m.LawOfStep(dt);
-  for (int e = 0; e < m.model.elements; ++e) {
-    const ElementOffset<double> offset = m.Offset(e);
-    m.w.chain.SetOffset(e, 0, offset.F, offset.M);
+  if (!m.pair.chain) {
+    m.pair.chain = std::make_unique<StepChain<LanePair>>(ChainLayout::Halves(m.model.elements));
+    m.pair.chain->SetHeld(m.model.held_a, m.model.held_b);
   }
-  m.HoldEnds(a, b);
-  SolveReport report;
-  const bool active = true;
-  SolveStep(StepCoefficients(dt), m.first_free(), m.last_free(), &m.model.length, &load, &active,
-            &m.w, &report);
-  if (!report.converged) return report;
-  m.TakeIterate(false);
-  for (NodeState& n : m.w.trial) n.q = Normalized(n.q);  // rounding would add up over many steps
-  std::swap(m.w.node, m.w.trial);
-  std::swap(m.w.rate, m.w.trial_rate);
-  std::swap(m.w.algorithm, m.w.trial_algorithm);
-  return report;
+  StepChain<LanePair>& chain = *m.pair.chain;
+  const StepCoefficients c(dt);
+  m.BeginStep(dt, a, b);
+  m.FillChain(0, &chain);
+  const RodState state = m.State();
+  const RodState halves[] = {state, state};
+  rod::Predict(c, halves, &chain);
+  m.HoldInChain(0, &chain);
+  StepOfRod step{true, m.model.length, load, {}};
+  SolveStep(c, &chain, &step);
+  if (!step.report.converged) return step.report;
+  m.TakeStep(chain, 0);
+  const RodState* accepting[] = {&state, &state};
+  Accept(c, chain, accepting);
+  return step.report;
 }
 
 void Rod::Predict(double dt, const Motion& a, const Motion& b,
@@ -81,9 +83,9 @@ V3 Rod::velocity(int i) const { return impl_->w.node[i].v; }
 Pose Rod::pose(int i) const { return {ToEigen(impl_->w.node[i].r), ToEigen(impl_->w.node[i].q)}; }
 Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->w.node[i].omega); }
 Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->w.rate[i].v); }
-Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->stress[e].n); }
-Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->stress[e].m); }
-Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->stress[e].kappa); }
+Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->Stress(e).n); }
+Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->Stress(e).m); }
+Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->Stress(e).kappa); }
 
 Wrench Rod::reaction_a() const {
   return ClampWrench(impl_->missing_a, ToEigen(impl_->w.node.front().q));
@@ -101,7 +103,10 @@ double Rod::kinetic_energy() const {
   }
   return energy;
 }
-double Rod::elastic_energy() const { return impl_->StrainEnergy(); }
+double Rod::elastic_energy() const {
+  impl_->Stress(0);
+  return impl_->StrainEnergy();
+}
 double Rod::gravity_energy() const { return impl_->GravityEnergy(impl_->w.node); }
 
 }  // namespace cosserat_cable::rod

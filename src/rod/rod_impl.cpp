@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lane_access.h"
+#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -32,9 +32,11 @@ Rod::Impl::Impl(const RodModel& m)
       shear2(MakeShearSeries(m.section, h, 1, 0)),
       w(m.elements),
       shear(m.elements),
-      stress(m.elements),
+      offsets(m.elements),
       missing_a{},
-      missing_b{} {
+      missing_b{},
+      next_offsets_(m.elements),
+      stress_(m.elements) {
   for (int i = 0; i < w.count; ++i) {
     const double share = (i == 0 || i == w.count - 1) ? 0.5 * h : h;
     w.mass[i] = share * m.section.rhoA;
@@ -87,24 +89,33 @@ void Rod::Impl::HoldEnds(const Motion& a, const Motion& b) {
   if (model.held_b) Hold(b, w.node.back(), &w.trial.back(), &w.trial_rate.back());
 }
 
-template <class T>
-void Rod::Impl::TakeStresses(const StepWorkspace<T>& from, int lane, bool at_rest) {
-  missing_a = GetLane(from.rhs.front(), lane);
-  missing_b = GetLane(from.rhs.back(), lane);
+void Rod::Impl::TakeRest() {
+  missing_a = w.rhs.front();
+  missing_b = w.rhs.back();
   const V3 gamma0 = ToSmall(model.section.gamma0);
   for (int e = 0; e < model.elements; ++e) {
-    stress[e] = from.chain.Stress(e, lane);
-    const V3 gamma = stress[e].gamma - gamma0, rate = stress[e].gamma_dot;
-    if (at_rest)
-      shear[e] = {shear1.Rest(gamma.x), shear2.Rest(gamma.y)};
-    else
-      shear[e] = {shear1.Commit(shear[e][0], gamma.x, rate.x),
-                  shear2.Commit(shear[e][1], gamma.y, rate.y)};
+    stress_[e] = w.chain.Stress(e, 0);
+    const V3 gamma = stress_[e].gamma - gamma0;
+    shear[e] = {shear1.Rest(gamma.x), shear2.Rest(gamma.y)};
   }
+  law = w.law;
+  offsets.assign(model.elements, {V3{}, MomentOfUnstressedCurvature()});
+  stress_known_ = true;
 }
 
-template void Rod::Impl::TakeStresses(const StepWorkspace<double>&, int, bool);
-template void Rod::Impl::TakeStresses(const StepWorkspace<Lanes>&, int, bool);
+void Rod::Impl::EvaluateStress() {
+  w.law = law;
+  for (int e = 0; e < model.elements; ++e) w.chain.SetOffset(e, 0, offsets[e].F, offsets[e].M);
+  w.trial = w.node;
+  EvaluateForces(&w);
+  for (int e = 0; e < model.elements; ++e) stress_[e] = w.chain.Stress(e, 0);
+  stress_known_ = true;
+}
+
+const ElementStress& Rod::Impl::Stress(int element) {
+  if (!stress_known_) EvaluateStress();
+  return stress_[element];
+}
 
 double Rod::Impl::StrainEnergy() const {
   double energy = 0;

@@ -2,17 +2,27 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/rod.h"
 #include "shear_series.h"
 #include "step_workspace.h"
+#include "time_step.h"
 
 namespace cosserat_cable::rod {
 
 using V3 = Vec3<double>;
 using NodeState = Node<double>;
+
+/// What a single rod needs for a step; set up by the first one, not copied with the rod.
+struct PairMemory {
+  PairMemory() = default;
+  PairMemory(const PairMemory&) {}
+  PairMemory& operator=(const PairMemory&) { return *this; }
+  std::unique_ptr<StepChain<LanePair>> chain;
+};
 
 struct Rod::Impl {
   explicit Impl(const RodModel& m);
@@ -25,7 +35,9 @@ struct Rod::Impl {
   // The rest of the state, by element.
   using ShearHistory = std::array<ShearSeries::History, 2>;
   std::vector<ShearHistory> shear;
-  std::vector<ElementStress> stress;
+  // With what law and offsets the elements' stresses follow from the state.
+  ElementLaw<double> law;
+  std::vector<ElementOffset<double>> offsets;
   Vec6<double> missing_a, missing_b;  // what the end nodes lack to balance: the clamps supply it
 
   int first_free() const { return model.held_a ? 1 : 0; }
@@ -42,14 +54,37 @@ struct Rod::Impl {
   /// The end nodes of the next iterate, where they are held.
   void HoldEnds(const Motion& a, const Motion& b);
 
-  /// Takes over what lane `lane` of a workspace found: stresses, end forces and internal variables,
-  /// at rest or at the end of the step that LawOfStep began.
+  /// Law, offsets and held ends of the step.
+  void BeginStep(double dt, const Motion& a, const Motion& b);
+  RodState State() { return {w.node.data(), w.rate.data(), w.algorithm.data()}; }
+  /// What a chain needs of the rod besides its state, into a lane, or into both halves.
   template <class T>
-  void TakeStresses(const StepWorkspace<T>& from, int lane, bool at_rest);
-  void TakeIterate(bool at_rest) { TakeStresses(w, 0, at_rest); }
+  void FillChain(int lane, StepChain<T>* chain) const;
+  /// The held ends into the chain's first iterate.
+  template <class T>
+  void HoldInChain(int lane, StepChain<T>* chain) const;
+  /// Takes over what a chain found besides the state: internal variables and end forces.
+  template <class T>
+  void TakeStep(const StepChain<T>& chain, int lane);
+  /// The equilibrium in `trial` becomes what stresses, end forces and internal variables are of.
+  void TakeRest();
 
+  /// Of an element in the present state. Found when first asked for.
+  const ElementStress& Stress(int element);
+
+  /// Of the iterate that was evaluated last.
   double StrainEnergy() const;
   double GravityEnergy(const std::vector<NodeState>& nodes) const;
+
+  PairMemory pair;
+
+ private:
+  void EvaluateStress();
+
+  ElementLaw<double> next_law_;  // of the step begun
+  std::vector<ElementOffset<double>> next_offsets_;
+  std::vector<ElementStress> stress_;
+  bool stress_known_ = false;
 };
 
 }  // namespace cosserat_cable::rod

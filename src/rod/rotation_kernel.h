@@ -103,12 +103,4 @@ __attribute__((noinline)) void CorrectExp(const Vec3<BasicLanes<N>>& phi, const 
   }
 }
 
-template <int N>
-Quat<BasicLanes<N>> Exp(const Vec3<BasicLanes<N>>& phi) {
-  const BasicLanes<N> y = 0.25 * Dot(phi, phi);
-  Quat<BasicLanes<N>> q = ExpSeries(phi, y);
-  CorrectExp(phi, y, &q);
-  return q;
-}
-
 }  // namespace cosserat_cable::rod

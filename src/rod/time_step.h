@@ -1,18 +1,23 @@
 // One implicit step of generalised-alpha on the configuration space R^3 x SO(3) per node.
 #pragma once
 
+#include "chain_kernels.h"
 #include "cosserat_cable/rod/rod.h"
-#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 
-/// Finds the iterate in which all forces balance, for the rod in each lane. Expects `node`, `rate`,
-/// `algorithm`, law and offsets set, and the held ends in `trial` and `trial_rate`; nodes
-/// `first`..`last` are free. Lanes that are not `active` are left out. A lane's result does not
-/// depend on the others.
+/// What a step needs to know of one rod, and says of it.
+struct StepOfRod {
+  bool active = false;  ///< others are left out
+  double length = 1;    ///< [m]
+  const Load* load = nullptr;
+  SolveReport report;
+};
+
+/// Finds the iterate in which all forces balance, for each rod of the chain. Expects the first
+/// iterate and the held ends, law and offsets in the chain; leaves strains and end forces there. A
+/// rod's result does not depend on the others. `rods`: by lane; of one in halves, that one.
 template <class T>
-void SolveStep(const StepCoefficients& c, int first, int last, const double* lengths,
-               const Load* const* loads, const bool* active, StepWorkspace<T>* w,
-               SolveReport* reports);
+void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods);
 
 }  // namespace cosserat_cable::rod

@@ -25,6 +25,13 @@ struct alignas(8 * N) BasicLanes {
   Vector v;
 
   BasicLanes() = default;
+  // Copied as a vector: GCC takes apart the bytes of a struct that is wider than the vectors of the
+  // oldest machine it compiles for.
+  BasicLanes(const BasicLanes& b) : v(b.v) {}
+  BasicLanes& operator=(const BasicLanes& b) {
+    v = b.v;
+    return *this;
+  }
   BasicLanes(double s) {  // NOLINT: a number stands for itself in every lane
     v = s - Vector{};
   }
