@@ -47,46 +47,85 @@ struct Node {
   Vec3<T> omega;  ///< angular velocity [rad/s], section frame
 };
 
+/// ElementLaw per increment of what EvaluateStrain gives, and with the unstressed strain folded in:
+/// what is the same for all elements of a rod.
+template <class T>
+struct ScaledLaw {
+  explicit ScaledLaw(const ElementLaw<T>& law) {
+    one_over_h = T(1) / law.h;
+    C_F = one_over_h * law.C_F;
+    C_M = one_over_h * law.C_M;
+    V_F = one_over_h * law.V_F;
+    V_M = one_over_h * law.V_M;
+    unstrained_F = -Scale(law.C_F, law.gamma0);
+  }
+  T one_over_h;
+  Vec3<T> C_F, C_M, V_F, V_M;
+  Vec3<T> unstrained_F;  ///< -C_F Gamma0
+};
+
 template <class T>
 struct ElementState {
   Mat3<T> Rm;
-  Vec3<T> u;      ///< Rm^T (r2 - r1) [m]
-  Vec3<T> theta;  ///< [rad]
+  Vec3<T> u;      ///< Rm^T (r2 - r1) = h Gamma [m]
+  Vec3<T> theta;  ///< h K [rad]
   T tau, c;
-  Vec3<T> gamma, gamma_dot;  ///< strain [1] and rate [1/s]
-  Vec3<T> kappa, kappa_dot;  ///< [1/m], [1/(m s)]
-  Vec3<T> n, m;              ///< force [N] and moment [N m] in the midpoint's frame
+  Vec3<T> u_rate, theta_rate;  ///< h dGamma/dt [m/s], h dK/dt [rad/s]
+  Vec3<T> n, m;                ///< force [N] and moment [N m] in the midpoint's frame
 };
+
+/// Modified Rodrigues vector x of q1* q2 and the midpoint's frame.
+template <class T>
+struct RelativeTurn {
+  Vec3<T> x;
+  T x2;
+};
+
+template <class T>
+RelativeTurn<T> EvaluateTurn(const Quat<T>& a, const Quat<T>& b, Mat3<T>* Rm) {
+  const Quat<T> q = Conjugate(a) * b;
+  const T k = T(1) / (T(1) + q.w);
+  // The midpoint's quaternion is along s = q1 + q2, and k = 2/|s|^2.
+  const Quat<T> s = {a.w + b.w, a.x + b.x, a.y + b.y, a.z + b.z};
+  const T x = k * s.x, y = k * s.y, z = k * s.z;
+  const T xx = x * s.x, yy = y * s.y, zz = z * s.z;
+  const T wx = x * s.w, wy = y * s.w, wz = z * s.w;
+  *Rm = {{{T(1) - yy - zz, x * s.y - wz, x * s.z + wy},
+          {x * s.y + wz, T(1) - xx - zz, y * s.z - wx},
+          {x * s.z - wy, y * s.z + wx, T(1) - xx - yy}}};
+  RelativeTurn<T> turn;
+  turn.x = k * q.vec();
+  turn.x2 = Dot(turn.x, turn.x);
+  return turn;
+}
+
+/// Strains and their rates, from the turn and its series.
+template <class T>
+void EvaluateStrain(const Node<T>& a, const Node<T>& b, const RelativeTurn<T>& turn,
+                    const ArcTangentSeries<T>& series, ElementState<T>* e) {
+  e->theta = series.angle * turn.x;
+  e->tau = series.tau;
+  e->c = series.c;
+  e->u = TransposeTimes(e->Rm, b.r - a.r);
+  const Vec3<T> domega = b.omega - a.omega, somega = T(0.5) * (b.omega + a.omega);
+  const Vec3<T> tx = Cross(e->theta, domega);
+  const Vec3<T> omega_m = somega + (T(0.5) * e->tau) * tx;
+  e->u_rate = TransposeTimes(e->Rm, b.v - a.v) + Cross(e->u, omega_m);
+  e->theta_rate = domega + Cross(e->theta, somega) + e->c * Cross(e->theta, tx);
+}
 
 /// Strains and their rates.
 template <class T>
-void EvaluateStrain(const Node<T>& a, const Node<T>& b, const T& h, ElementState<T>* e) {
-  using std::sqrt;
-  const Quat<T> q = Conjugate(a.q) * b.q;
-  const T one_over = T(1) / (T(1) + q.w);
-  const Vec3<T> x = one_over * q.vec();
-  const auto series = EvaluateArcTangent(Dot(x, x));
-  e->theta = (T(4) * series.A) * x;
-  e->tau = T(0.25) / series.A;
-  e->c = series.B * e->tau * e->tau;
-  const Quat<T> sum = {a.q.w + b.q.w, a.q.x + b.q.x, a.q.y + b.q.y, a.q.z + b.q.z};
-  e->Rm = ToMatrix(Normalized(sum));
-  e->u = TransposeTimes(e->Rm, b.r - a.r);
-  const T inv_h = T(1) / h;
-  e->gamma = inv_h * e->u;
-  e->kappa = inv_h * e->theta;
-  const Vec3<T> domega = b.omega - a.omega, somega = b.omega + a.omega;
-  const Vec3<T> tx = Cross(e->theta, domega);
-  const Vec3<T> omega_m = T(0.5) * (somega + e->tau * tx);
-  e->gamma_dot = inv_h * (TransposeTimes(e->Rm, b.v - a.v) + Cross(e->u, omega_m));
-  e->kappa_dot = inv_h * (domega + T(0.5) * Cross(e->theta, somega) + e->c * Cross(e->theta, tx));
+void EvaluateStrain(const Node<T>& a, const Node<T>& b, ElementState<T>* e) {
+  const RelativeTurn<T> turn = EvaluateTurn(a.q, b.q, &e->Rm);
+  EvaluateStrain(a, b, turn, EvaluateArcTangent(turn.x2), e);
 }
 
 /// Force and moment of the section law at strains that EvaluateStrain has set.
 template <class T>
-void EvaluateStress(const ElementLaw<T>& law, const ElementOffset<T>& offset, ElementState<T>* e) {
-  e->n = offset.F + Scale(law.C_F, e->gamma - law.gamma0) + Scale(law.V_F, e->gamma_dot);
-  e->m = offset.M + Scale(law.C_M, e->kappa) + Scale(law.V_M, e->kappa_dot);
+void EvaluateStress(const ScaledLaw<T>& law, const ElementOffset<T>& offset, ElementState<T>* e) {
+  e->n = (offset.F + law.unstrained_F) + Scale(law.C_F, e->u) + Scale(law.V_F, e->u_rate);
+  e->m = offset.M + Scale(law.C_M, e->theta) + Scale(law.V_M, e->theta_rate);
 }
 
 /// Generalised forces on the two nodes: what the element adds to M dv/dt + ... = 0.
@@ -98,19 +137,38 @@ struct ElementForces {
 
 template <class T>
 ElementForces<T> EvaluateForces(const ElementState<T>& e) {
-  const Vec3<T> p = Cross(e.n, e.u);
-  const Vec3<T> txp = e.tau * Cross(e.theta, p);
+  const Vec3<T> half_p = T(0.5) * Cross(e.n, e.u);
   const Vec3<T> txm = Cross(e.theta, e.m);
-  const Vec3<T> even = e.m + e.c * Cross(e.theta, txm);
-  const Vec3<T> half_p = T(0.5) * p;
-  const Vec3<T> odd = T(0.5) * (txp + txm);
+  // theta x m has the same sign on both nodes, tau theta x p does not.
+  const Vec3<T> same = half_p - T(0.5) * txm;
+  const Vec3<T> opposite = e.m + e.c * Cross(e.theta, txm) - e.tau * Cross(e.theta, half_p);
   ElementForces<T> out;
   out.f = e.Rm * e.n;
-  out.g2 = half_p + even - odd;
-  // tau theta x p changes sign between the nodes, theta x m does not.
-  out.g1 = half_p - even - T(0.5) * (txm - txp);
+  out.g2 = same + opposite;
+  out.g1 = same - opposite;
   return out;
 }
+
+/// Strain-like moduli of the tangent (C, or C + V d(rate)/d(strain) in a time step), and what the
+/// tangents of all elements of a rod need of them.
+template <class T>
+struct TangentLaw {
+  TangentLaw(const T& h, const Vec3<T>& C_F, const Vec3<T>& C_M) {
+    const T one_over_h = T(1) / h;
+    cf = one_over_h * C_F;
+    cm = one_over_h * C_M;
+    sum = {T(0.5) * (cm.y + cm.z), T(0.5) * (cm.z + cm.x), T(0.5) * (cm.x + cm.y)};
+    difference = {T(0.5) * (cm.z - cm.y), T(0.5) * (cm.x - cm.z), T(0.5) * (cm.y - cm.x)};
+    even = T(1.0 / 6) * cm;
+    odd = T(0.25) * cm;
+    near = T(1.0 / 6) * sum - odd;
+    far = T(1.0 / 6) * sum + odd;
+  }
+  Vec3<T> cf, cm;           ///< [N/m], [N m]
+  Vec3<T> sum, difference;  ///< of the other two axes' moduli of bending or twisting, halved
+  Vec3<T> even, odd;        ///< factors of [theta]^2 in J_i^T cm J_j, on its diagonal
+  Vec3<T> near, far;        ///< the same beside it, for i = j and for i != j
+};
 
 /// Symmetric 12x12 tangent of one element in its blocks. Signs: rows r2; r1 has the opposite ones.
 template <class T>
@@ -120,81 +178,89 @@ struct ElementTangent {
   Mat3<T> t11, t12, t22;  ///< d g_i/d phi_j
 };
 
-/// Tangent for strain-like moduli `C_F`, `C_M` (C, or C + V d(rate)/d(strain) in a time step).
-///
-/// The geometric part is exact to second order in theta; the skew part of the diagonal blocks,
-/// which vanishes in balance, and the change of strain rates with the configuration are left out,
-/// so that the system stays symmetric. Newton then contracts by about 1e-3 per iteration instead of
-/// quadratically; residuals are exact.
+/// Exact to second order in theta. The skew part of the diagonal blocks, which vanishes in balance,
+/// and the change of strain rates with the configuration are left out, so that the system stays
+/// symmetric. Newton then contracts by about 1e-3 per iteration instead of quadratically; residuals
+/// are exact.
 template <class T>
-ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const T& h, const Vec3<T>& C_F,
-                                  const Vec3<T>& C_M) {
-  const T inv_h = T(1) / h;
-  const Vec3<T> cf = inv_h * C_F, cm = inv_h * C_M;
-  const Mat3<T> Rm_cf = ScaleColumns(e.Rm, cf);
+ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const TangentLaw<T>& law) {
   ElementTangent<T> k;
-  k.rr = Rm_cf * Transpose(e.Rm);
-
-  const Mat3<T> X = TimesCross(Rm_cf, e.u) - TimesCross(e.Rm, e.n);
-  const Mat3<T> X_odd = (T(0.5) * e.tau) * TimesCross(X, e.theta);
-  const Mat3<T> X_even = T(0.5) * X;
-  k.r1 = X_even - X_odd;
-  k.r2 = X_even + X_odd;
-
-  // phi_m phi_m: -[u] cf [u] + sym([n][u]),  [n][u] = u n^T - (n.u) I
-  Mat3<T> M;
-  const T nu = Dot(e.n, e.u);
-  const T uu[3] = {e.u.x * e.u.x, e.u.y * e.u.y, e.u.z * e.u.z};
-  M[0][0] = cf.y * uu[2] + cf.z * uu[1] + e.n.x * e.u.x - nu;
-  M[1][1] = cf.z * uu[0] + cf.x * uu[2] + e.n.y * e.u.y - nu;
-  M[2][2] = cf.x * uu[1] + cf.y * uu[0] + e.n.z * e.u.z - nu;
-  M[0][1] = M[1][0] = -cf.z * e.u.x * e.u.y + T(0.5) * (e.n.x * e.u.y + e.n.y * e.u.x);
-  M[0][2] = M[2][0] = -cf.y * e.u.x * e.u.z + T(0.5) * (e.n.x * e.u.z + e.n.z * e.u.x);
-  M[1][2] = M[2][1] = -cf.x * e.u.y * e.u.z + T(0.5) * (e.n.y * e.u.z + e.n.z * e.u.y);
-
-  // P_i^T M P_j with P = (I -+ tau [theta])/2
-  const Mat3<T> Mt = e.tau * TimesCross(M, e.theta);    // M tau[theta]
-  const Mat3<T> tMt = e.tau * CrossTimes(e.theta, Mt);  // tau[theta] M tau[theta]
-  const Mat3<T> tM = Transpose(Mt);                     // -(tau[theta] M), M symmetric
-
-  // J_i^T cm J_j with J2 = I + E + O, J1 = I + E - O, O = [theta]/2, E = c [theta]^2
-  Mat3<T> even = e.c * (Outer(e.theta, e.theta));
-  const T diagonal = T(1) - e.c * Dot(e.theta, e.theta);
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) even[i][i] += diagonal;
-  const Mat3<T> odd = T(0.5) * CrossMatrix(e.theta);
-  const Mat3<T> cE = ScaleRows(cm, even), cO = ScaleRows(cm, odd);
-  const Mat3<T> EE = even * cE, EO = even * cO, OO = odd * cO;  // odd^T = -odd
-  // J2^T c J2 = (E - O) c (E + O),  J1^T c J1 = (E + O) c (E - O),  J1^T c J2 = (E + O) c (E + O)
-  // with OcE = -(EcO)^T.
-
-  // Geometric stiffness of the moment, to second order: Q/2 on the diagonal, [m]x/2 + Q beside it,
-  // with Q = (theta m^T + m theta^T)/6 - (theta.m)/3 I. It matters: spinning a bent cable about its
-  // own axis is resisted by torsion over the whole length only.
-  const T tm = T(1.0 / 3) * Dot(e.theta, e.m);
-  const Vec3<T> sixth = T(1.0 / 6) * e.theta;
-  Mat3<T> Q;
-  Q[0][0] = T(2) * sixth.x * e.m.x - tm;
-  Q[1][1] = T(2) * sixth.y * e.m.y - tm;
-  Q[2][2] = T(2) * sixth.z * e.m.z - tm;
-  Q[0][1] = Q[1][0] = sixth.x * e.m.y + sixth.y * e.m.x;
-  Q[0][2] = Q[2][0] = sixth.x * e.m.z + sixth.z * e.m.x;
-  Q[1][2] = Q[2][1] = sixth.y * e.m.z + sixth.z * e.m.y;
-  const Mat3<T> half_m = T(0.5) * CrossMatrix(e.m);
-
+  const Vec3<T>&cf = law.cf, &cm = law.cm, &t = e.theta;
+  const Mat3<T> Rm_cf = ScaleColumns(e.Rm, cf);
 #pragma GCC unroll 3
   for (int i = 0; i < 3; ++i)
 #pragma GCC unroll 3
-    for (int j = 0; j < 3; ++j) {
-      const T quarter_M = T(0.25) * (M[i][j] - tMt[i][j]);
-      const T quarter_odd = T(0.25) * (Mt[i][j] + tM[i][j]);
-      const T second = EE[i][j] - OO[i][j] + T(0.5) * Q[i][j];
-      const T first = EO[i][j] + EO[j][i];
-      k.t11[i][j] = quarter_M - quarter_odd + second - first;
-      k.t22[i][j] = quarter_M + quarter_odd + second + first;
-      k.t12[i][j] = T(0.25) * (M[i][j] + tMt[i][j] + Mt[i][j] - tM[i][j]) -
-                    (EE[i][j] + OO[i][j] + EO[i][j] - EO[j][i]) + Q[i][j] + half_m[i][j];
-    }
+    for (int j = 0; j <= i; ++j)
+      k.rr[i][j] = k.rr[j][i] =
+          Rm_cf[i][0] * e.Rm[j][0] + Rm_cf[i][1] * e.Rm[j][1] + Rm_cf[i][2] * e.Rm[j][2];
+
+  // d f/d phi_m = Rm Y, Y = cf [u] - [n]; each node gets half of it, turned to it by tau theta.
+  const Vec3<T> u = T(0.5) * e.u, n = T(0.5) * e.n, turn = e.tau * t;
+  const T Y01 = n.z - cf.x * u.z, Y02 = cf.x * u.y - n.y;
+  const T Y10 = cf.y * u.z - n.z, Y12 = n.x - cf.y * u.x;
+  const T Y20 = n.y - cf.z * u.y, Y21 = cf.z * u.x - n.x;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i) {
+    const T* R = e.Rm[i];
+    const Vec3<T> even{R[1] * Y10 + R[2] * Y20, R[0] * Y01 + R[2] * Y21, R[0] * Y02 + R[1] * Y12};
+    const Vec3<T> odd = Cross(even, turn);
+    k.r1[i][0] = even.x - odd.x;
+    k.r1[i][1] = even.y - odd.y;
+    k.r1[i][2] = even.z - odd.z;
+    k.r2[i][0] = even.x + odd.x;
+    k.r2[i][1] = even.y + odd.y;
+    k.r2[i][2] = even.z + odd.z;
+  }
+
+  // phi_i phi_j of the force: P_i^T M P_j with M = -sym([u] Y), P = (I -+ tau [theta])/2; the
+  // quarter is in u and n.
+  Mat3<T> M;
+  const Vec3<T> quarter_u = T(0.5) * u;
+  M[0][0] = u.z * Y10 - u.y * Y20;
+  M[1][1] = u.x * Y21 - u.z * Y01;
+  M[2][2] = u.y * Y02 - u.x * Y12;
+  M[0][1] = M[1][0] = quarter_u.x * Y20 - quarter_u.y * Y21;
+  M[0][2] = M[2][0] = quarter_u.z * Y12 - quarter_u.x * Y10;
+  M[1][2] = M[2][1] = quarter_u.y * Y01 - quarter_u.z * Y02;
+  const Mat3<T> Mt = TimesCross(M, turn);  // M tau[theta]; its transpose is -(tau[theta] M)
+  const Mat3<T> tMt = CrossTimes(turn, Mt);
+
+  // J_i^T cm J_j with J = I +- [theta]/2 + [theta]^2/12, and the geometric stiffness of the moment:
+  // Q/2 on the diagonal, [m]x/2 + Q beside it, with Q = (theta m^T + m theta^T)/6 - (theta.m)/3 I.
+  // That matters: spinning a bent cable about its own axis is resisted by torsion over the whole
+  // length only.
+  const Vec3<T> squares = Scale(t, t), tm = T(1.0 / 6) * Scale(t, e.m);
+  const Vec3<T> sixth = T(1.0 / 6) * t;
+  const Vec3<T> first = Scale(law.difference, t);
+  const Vec3<T> skew = T(0.5) * e.m - Scale(law.sum, t);
+  const auto diagonal = [&](int i, const T& cm_i, const T& even_i, const T& square_j,
+                            const T& square_k, const T& odd_j, const T& odd_k, const T& half_Q) {
+    const T even = cm_i - even_i * (square_j + square_k);
+    const T odd = odd_k * square_j + odd_j * square_k;
+    const T same = (M[i][i] - tMt[i][i]) + (even + odd) - half_Q, opposite = T(2) * Mt[i][i];
+    k.t11[i][i] = same - opposite;
+    k.t22[i][i] = same + opposite;
+    k.t12[i][i] = (M[i][i] + tMt[i][i]) - (even - odd) - T(2) * half_Q;
+  };
+  diagonal(0, cm.x, law.even.x, squares.y, squares.z, law.odd.y, law.odd.z, tm.y + tm.z);
+  diagonal(1, cm.y, law.even.y, squares.z, squares.x, law.odd.z, law.odd.x, tm.z + tm.x);
+  diagonal(2, cm.z, law.even.z, squares.x, squares.y, law.odd.x, law.odd.y, tm.x + tm.y);
+  const auto beside = [&](int i, int j, const T& product, const T& near, const T& far, const T& Q,
+                          const T& first_ij, const T& skew_ij) {
+    const T same = (M[i][j] - tMt[i][j]) + near * product + T(0.5) * Q;
+    const T opposite = Mt[i][j] + Mt[j][i] + first_ij;
+    k.t11[i][j] = k.t11[j][i] = same - opposite;
+    k.t22[i][j] = k.t22[j][i] = same + opposite;
+    const T even = (M[i][j] + tMt[i][j]) - far * product + Q, odd = (Mt[i][j] - Mt[j][i]) + skew_ij;
+    k.t12[i][j] = even + odd;
+    k.t12[j][i] = even - odd;
+  };
+  beside(0, 1, t.x * t.y, law.near.z, law.far.z, sixth.x * e.m.y + sixth.y * e.m.x, first.z,
+         -skew.z);
+  beside(0, 2, t.x * t.z, law.near.y, law.far.y, sixth.x * e.m.z + sixth.z * e.m.x, first.y,
+         skew.y);
+  beside(1, 2, t.y * t.z, law.near.x, law.far.x, sixth.y * e.m.z + sixth.z * e.m.y, first.x,
+         -skew.x);
   return k;
 }
 

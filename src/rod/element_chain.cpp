@@ -23,19 +23,20 @@ ElementLaw<Lanes> Broadcast(const ElementLaw<double>& law) {
 /// Four nodes side by side.
 Node<Lanes> Gather(const Node<double>& a, const Node<double>& b, const Node<double>& c,
                    const Node<double>& d) {
+  const auto four = [&](double x, double y, double z, double w) {
+    return Lanes::Of(Lanes::Vector{x, y, z, w});
+  };
   const auto vec = [&](Vec3<double> Node<double>::*m) {
-    return Vec3<Lanes>{{(a.*m).x, (b.*m).x, (c.*m).x, (d.*m).x},
-                       {(a.*m).y, (b.*m).y, (c.*m).y, (d.*m).y},
-                       {(a.*m).z, (b.*m).z, (c.*m).z, (d.*m).z}};
+    return Vec3<Lanes>{four((a.*m).x, (b.*m).x, (c.*m).x, (d.*m).x),
+                       four((a.*m).y, (b.*m).y, (c.*m).y, (d.*m).y),
+                       four((a.*m).z, (b.*m).z, (c.*m).z, (d.*m).z)};
   };
   Node<Lanes> n;
   n.r = vec(&Node<double>::r);
   n.v = vec(&Node<double>::v);
   n.omega = vec(&Node<double>::omega);
-  n.q = {{a.q.w, b.q.w, c.q.w, d.q.w},
-         {a.q.x, b.q.x, c.q.x, d.q.x},
-         {a.q.y, b.q.y, c.q.y, d.q.y},
-         {a.q.z, b.q.z, c.q.z, d.q.z}};
+  n.q = {four(a.q.w, b.q.w, c.q.w, d.q.w), four(a.q.x, b.q.x, c.q.x, d.q.x),
+         four(a.q.y, b.q.y, c.q.y, d.q.y), four(a.q.z, b.q.z, c.q.z, d.q.z)};
   return n;
 }
 
@@ -128,21 +129,27 @@ ElementStress ElementChain<T>::Stress(int element, int lane) const {
   const bool one = kLaneCount<T> == 1;
   const ElementState<Lanes>& e = states_[one ? element / kLanes : element];
   const int l = one ? element % kLanes : lane;
-  return {Lane(e.gamma, l),     Lane(e.gamma_dot, l), Lane(e.kappa, l),
-          Lane(e.kappa_dot, l), Lane(e.n, l),         Lane(e.m, l)};
+  const double one_over_h = one_over_h_[one ? 0 : lane];
+  return {one_over_h * Lane(e.u, l),
+          one_over_h * Lane(e.u_rate, l),
+          one_over_h * Lane(e.theta, l),
+          one_over_h * Lane(e.theta_rate, l),
+          Lane(e.n, l),
+          Lane(e.m, l)};
 }
 
 template <>
 COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* nodes,
                                                           const ElementLaw<double>& law,
                                                           Vec6<double>* rhs) {
-  const ElementLaw<Lanes> wide = Broadcast(law);
+  const ScaledLaw<Lanes> wide(Broadcast(law));
+  one_over_h_ = wide.one_over_h;
   for (int first = 0; first < elements_; first += kLanes) {
     // The lanes left over at the end repeat the last element.
     const auto at = [&](int lane) { return nodes + std::min(first + lane, elements_ - 1); };
     const Node<double>*n0 = at(0), *n1 = at(1), *n2 = at(2), *n3 = at(3);
     ElementState<Lanes>& state = states_[first / kLanes];
-    EvaluateStrain(Gather(*n0, *n1, *n2, *n3), Gather(n0[1], n1[1], n2[1], n3[1]), wide.h, &state);
+    EvaluateStrain(Gather(*n0, *n1, *n2, *n3), Gather(n0[1], n1[1], n2[1], n3[1]), &state);
     EvaluateStress(wide, offsets_[first / kLanes], &state);
     const ElementForces<Lanes> forces = EvaluateForces(state);
     const int lanes = std::min(kLanes, elements_ - first);
@@ -153,27 +160,13 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
 }
 
 template <>
-COSSERAT_CABLE_KERNEL void ElementChain<Lanes>::Evaluate(const Node<Lanes>* nodes,
-                                                         const ElementLaw<Lanes>& law,
-                                                         Vec6<Lanes>* rhs) {
-  for (int e = 0; e < elements_; ++e) {
-    ElementState<Lanes>& state = states_[e];
-    EvaluateStrain(nodes[e], nodes[e + 1], law.h, &state);
-    EvaluateStress(law, offsets_[e], &state);
-    AddForces(EvaluateForces(state), &rhs[e], &rhs[e + 1]);
-  }
-}
-
-template <>
 COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
     const double& h, const Vec3<double>& C_F, const Vec3<double>& C_M,
     BlockTridiagonal<double>* system) const {
-  const Vec3<Lanes> wide_F = Broadcast(C_F), wide_M = Broadcast(C_M);
-  const Lanes wide_h = h;
+  const TangentLaw<Lanes> law(h, Broadcast(C_F), Broadcast(C_M));
   ClearFront(system);
   for (int first = 0; first < elements_; first += kLanes) {
-    const ElementTangent<Lanes> k =
-        EvaluateTangent(states_[first / kLanes], wide_h, wide_F, wide_M);
+    const ElementTangent<Lanes> k = EvaluateTangent(states_[first / kLanes], law);
     const int lanes = std::min(kLanes, elements_ - first);
     for (int l = 0; l < lanes; ++l)
       AddTangent(ElementTangent<double>{Lane(k.rr, l), Lane(k.r1, l), Lane(k.r2, l), Lane(k.t11, l),
@@ -182,16 +175,6 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
   }
 }
 
-template <>
-COSSERAT_CABLE_KERNEL void ElementChain<Lanes>::AssembleTangent(
-    const Lanes& h, const Vec3<Lanes>& C_F, const Vec3<Lanes>& C_M,
-    BlockTridiagonal<Lanes>* system) const {
-  ClearFront(system);
-  for (int e = 0; e < elements_; ++e)
-    AddTangent(EvaluateTangent(states_[e], h, C_F, C_M), e, system);
-}
-
 template class ElementChain<double>;
-template class ElementChain<Lanes>;
 
 }  // namespace cosserat_cable::rod

@@ -42,6 +42,7 @@ class ElementChain {
   // Of one rod, element e is lane e % 4 of entry e / 4; of four, lane l of entry e belongs to rod
   // l.
   std::vector<ElementState<Lanes>> states_;
+  Lanes one_over_h_ = 0.0;  // [1/m]
   std::vector<ElementOffset<Lanes>> offsets_;
 };
 

@@ -61,33 +61,6 @@ void EndPart::ImposePose(Node<double>* node) const {
   node->q = q;
 }
 
-void EndPart::ImposeRates(Node<double>* node, NodeRates<double>* rates) const {
-  if (!holds_) return;
-  const Relative of = Compare(*node);
-  const Vector3d alpha_W = of.R_WC * clamp().alpha;
-  Vector3d v = ToEigen(node->v) - clamp().v - of.omega_W.cross(of.d_W);  // as the clamp sees it
-  for (int k = 0; k < 3; ++k)
-    if (model_.translation[k]) v -= of.R_WC.col(k) * of.R_WC.col(k).dot(v);
-  const Vector3d carried = clamp().a + alpha_W.cross(of.d_W) +
-                           of.omega_W.cross(of.omega_W.cross(of.d_W)) + 2 * of.omega_W.cross(v);
-  Vector3d a = ToEigen(rates->v) - carried;
-  for (int k = 0; k < 3; ++k)
-    if (model_.translation[k]) a -= of.R_WC.col(k) * of.R_WC.col(k).dot(a);
-  node->v = ToSmall(clamp().v + of.omega_W.cross(of.d_W) + v);
-  rates->v = ToSmall(carried + a);
-
-  if (!holds_rotation_) return;
-  const Vector3d omega_relative = ToEigen(node->omega) - of.omega_C_S;
-  const Vector3d alpha_C_S = ToEigen(node->q).conjugate() * alpha_W;
-  ChartRates chart = ToChartRates(of.psi, {omega_relative, ToEigen(rates->omega) - alpha_C_S +
-                                                               omega_relative.cross(of.omega_C_S)});
-  for (int k = 0; k < 3; ++k)
-    if (model_.rotation[k]) chart.d_phi[k] = chart.dd_phi[k] = 0;
-  const BodyRates body = ToBodyRates(of.psi, chart);
-  node->omega = ToSmall(of.omega_C_S + body.omega);
-  rates->omega = ToSmall(alpha_C_S - body.omega.cross(of.omega_C_S) + body.alpha);
-}
-
 Vector3d EndPart::SpringMoment(const Node<double>& node) const {
   if (!sprung_) return Vector3d::Zero();
   const Relative of = Compare(node);

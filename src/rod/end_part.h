@@ -6,8 +6,8 @@
 
 #include "cosserat_cable/math/pose.h"
 #include "cosserat_cable/rod/end_model.h"
+#include "element.h"
 #include "prescribed_motion.h"
-#include "step_workspace.h"
 
 namespace cosserat_cable::rod {
 
@@ -19,6 +19,7 @@ class EndPart {
 
   /// Whether anything is held.
   bool holds() const { return holds_; }
+  bool holds_rotation() const { return holds_rotation_; }
   /// Whether the clamp exerts anything.
   bool bears() const { return holds_ || sprung_; }
   /// Whether the node is an unknown on which this end bears.
@@ -30,8 +31,6 @@ class EndPart {
 
   /// Puts what is held of the node's pose where the clamp has it.
   void ImposePose(Node<double>* node) const;
-  /// Likewise of its velocities and their rates; the pose stands.
-  void ImposeRates(Node<double>* node, NodeRates<double>* rates) const;
 
   /// Moment of the springs on the node [N m], section frame.
   Eigen::Vector3d SpringMoment(const Node<double>& node) const;
@@ -64,6 +63,19 @@ class EndPart {
   EndModel model_;
   bool holds_, holds_rotation_, sprung_;
   PrescribedMotion clamp_;
+};
+
+/// Both ends of a rod.
+struct EndParts {
+  EndPart a, b;
+
+  bool active() const { return a.active() || b.active(); }
+  /// Calls `act(end, whether it is b)`.
+  template <class Act>
+  void ForEachActive(Act act) const {
+    if (a.active()) act(a, false);
+    if (b.active()) act(b, true);
+  }
 };
 
 }  // namespace cosserat_cable::rod

@@ -5,6 +5,7 @@
 
 #include "lane_view.h"
 #include "rod_impl.h"
+#include "static_ends.h"
 #include "step_kernels.h"
 
 namespace cosserat_cable::rod {
@@ -28,15 +29,9 @@ SolveReport Rod::Equilibrate(const Load* load) {
   Impl& m = *impl_;
   const int first = m.first_free(), last = m.last_free();
   for (NodeState& n : m.w.node) n.v = n.omega = V3{};
-  for (EndPart* end : {&m.end_a, &m.end_b}) end->Start(Motion::Resting(end->clamp().X));
+  for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
   m.w.trial = m.w.node;
-  const LaneEnds ends = m.ends();
-  const auto hold_ends = [&] {
-    ends.ForEach(m.w.count, [&](const EndPart& end, int i) { end.ImposePose(&m.w.trial[i]); });
-  };
-  if (m.model.a.clamped()) m.end_a.ImposePose(&m.w.trial.front());
-  if (m.model.b.clamped()) m.end_b.ImposePose(&m.w.trial.back());
-  hold_ends();
+  ImposeEnds(m.ends, &m.w);
   m.PrepareStatics();
 
   const double bending = std::min(m.w.law.C_M.x, m.w.law.C_M.y);
@@ -68,7 +63,7 @@ SolveReport Rod::Equilibrate(const Load* load) {
       m.w.rhs = internal;
       AssembleTangent(0.0, &m.w);
       if (load) AddLoad(*load, 0, true, 0.0, &m.w);
-      ConstrainEnds(ends, 0, true, 0.0, &m.w);
+      ConstrainEnds(m.ends, &m.w);
       for (int i = first; i <= last; ++i)
         for (int k = 0; k < 3; ++k) {
           m.w.system.diagonal(i)[k][k] += shift * translation_scale;
@@ -103,7 +98,7 @@ SolveReport Rod::Equilibrate(const Load* load) {
         m.w.trial[i].r = start[i].r + fraction * V3{d[0], d[1], d[2]};
         m.w.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
       }
-      hold_ends();
+      ImposeEnds(m.ends, &m.w);
       EvaluateForces(&m.w);
       const double next = energy();
       accepted = !descends || next <= current + kSufficientDecrease * fraction * slope + noise;
@@ -127,8 +122,7 @@ SolveReport Rod::Equilibrate(const Load* load) {
 
   // At the clamps, what is left of the forces is what they must supply.
   if (load) AddLoad(*load, 0, false, 0.0, &m.w);
-  m.TakeStresses(m.w, 0, true);
-  m.energy.Close();
+  m.TakeRest();
   m.w.node = m.w.trial;
   std::fill(m.w.rate.begin(), m.w.rate.end(), NodeRates<double>{});
   std::fill(m.w.algorithm.begin(), m.w.algorithm.end(), NodeRates<double>{});

@@ -1,9 +1,7 @@
 // What belongs to one lane of the kernel's types, in and out.
 #pragma once
 
-#include <Eigen/Core>
-
-#include "step_workspace.h"
+#include "step_chain.h"
 
 namespace cosserat_cable::rod {
 
@@ -21,44 +19,43 @@ void SetLane(Vec3<T>* v, int lane, const Vec3<double>& value) {
   SetLane(&v->z, lane, value.z);
 }
 
-inline Quat<double> GetLane(const Quat<double>& q, int) { return q; }
-inline Node<double> GetLane(const Node<double>& node, int) { return node; }
-inline void SetLane(Node<double>* node, int, const Node<double>& value) { *node = value; }
-inline NodeRates<double> GetLane(const NodeRates<double>& rates, int) { return rates; }
-inline void SetLane(NodeRates<double>* rates, int, const NodeRates<double>& value) {
-  *rates = value;
+template <class T>
+Quat<double> GetLane(const Quat<T>& q, int lane) {
+  return {GetLane(q.w, lane), GetLane(q.x, lane), GetLane(q.y, lane), GetLane(q.z, lane)};
 }
-
-inline Quat<double> GetLane(const Quat<Lanes>& q, int lane) {
-  return {q.w[lane], q.x[lane], q.y[lane], q.z[lane]};
-}
-inline void SetLane(Quat<Lanes>* q, int lane, const Quat<double>& value) {
+template <class T>
+void SetLane(Quat<T>* q, int lane, const Quat<double>& value) {
   SetLane(&q->w, lane, value.w);
   SetLane(&q->x, lane, value.x);
   SetLane(&q->y, lane, value.y);
   SetLane(&q->z, lane, value.z);
 }
 
-inline Node<double> GetLane(const Node<Lanes>& node, int lane) {
-  return {GetLane(node.r, lane), GetLane(node.q, lane), GetLane(node.v, lane),
-          GetLane(node.omega, lane)};
-}
-inline void SetLane(Node<Lanes>* node, int lane, const Node<double>& value) {
+template <class T>
+void SetLane(Node<T>* node, int lane, const Node<double>& value) {
   SetLane(&node->r, lane, value.r);
   SetLane(&node->q, lane, value.q);
   SetLane(&node->v, lane, value.v);
   SetLane(&node->omega, lane, value.omega);
 }
 
-inline NodeRates<double> GetLane(const NodeRates<Lanes>& rates, int lane) {
+template <class T>
+Node<double> GetLane(const Node<T>& node, int lane) {
+  return {GetLane(node.r, lane), GetLane(node.q, lane), GetLane(node.v, lane),
+          GetLane(node.omega, lane)};
+}
+template <class T>
+NodeRates<double> GetLane(const NodeRates<T>& rates, int lane) {
   return {GetLane(rates.v, lane), GetLane(rates.omega, lane)};
 }
-inline void SetLane(NodeRates<Lanes>* rates, int lane, const NodeRates<double>& value) {
+template <class T>
+void SetLane(NodeRates<T>* rates, int lane, const NodeRates<double>& value) {
   SetLane(&rates->v, lane, value.v);
   SetLane(&rates->omega, lane, value.omega);
 }
 
-inline void SetLane(ElementLaw<Lanes>* law, int lane, const ElementLaw<double>& value) {
+template <class T>
+void SetLane(ElementLaw<T>* law, int lane, const ElementLaw<double>& value) {
   SetLane(&law->h, lane, value.h);
   SetLane(&law->C_F, lane, value.C_F);
   SetLane(&law->C_M, lane, value.C_M);
@@ -71,24 +68,6 @@ template <class T>
 Vec6<double> GetLane(const Vec6<T>& v, int lane) {
   return {{GetLane(v[0], lane), GetLane(v[1], lane), GetLane(v[2], lane), GetLane(v[3], lane),
            GetLane(v[4], lane), GetLane(v[5], lane)}};
-}
-template <class T>
-void SetLane(Vec6<T>* v, int lane, const Vec6<double>& value) {
-  for (int k = 0; k < 6; ++k) SetLane(&(*v)[k], lane, value[k]);
-}
-
-/// A block as a matrix, and back.
-template <class T>
-Eigen::Matrix<double, 6, 6> GetLane(const Block6<T>& block, int lane) {
-  Eigen::Matrix<double, 6, 6> matrix;
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c) matrix(r, c) = GetLane(block[r][c], lane);
-  return matrix;
-}
-template <class T>
-void SetLane(Block6<T>* block, int lane, const Eigen::Matrix<double, 6, 6>& matrix) {
-  for (int r = 0; r < 6; ++r)
-    for (int c = 0; c < 6; ++c) SetLane(&(*block)[r][c], lane, matrix(r, c));
 }
 
 }  // namespace cosserat_cable::rod

@@ -1,8 +1,8 @@
 // One lane of a workspace, as a load sees it and changes it.
 #pragma once
 
+#include "cosserat_cable/math/lanes.h"
 #include "cosserat_cable/rod/load.h"
-#include "lane_access.h"
 #include "step_workspace.h"
 
 namespace cosserat_cable::rod {
@@ -13,9 +13,9 @@ class LaneView : public Centreline {
  public:
   LaneView(const StepWorkspace<T>* workspace, int lane) : workspace_(*workspace), lane_(lane) {}
   int elements() const override { return workspace_.count - 1; }
-  Vec3<double> position(int i) const override { return GetLane(workspace_.trial[i].r, lane_); }
-  Vec3<double> velocity(int i) const override { return GetLane(workspace_.trial[i].v, lane_); }
-  Quat<double> orientation(int i) const override { return GetLane(workspace_.trial[i].q, lane_); }
+  Vec3<double> position(int i) const override { return workspace_.trial[i].r; }
+  Vec3<double> velocity(int i) const override { return workspace_.trial[i].v; }
+  Quat<double> orientation(int i) const override { return workspace_.trial[i].q; }
 
  private:
   const StepWorkspace<T>& workspace_;
@@ -34,10 +34,8 @@ class LaneSink : public LoadSink {
                 const Mat3<double>& by_velocity) override {
     const double weight[2] = {1 - xi, xi};
     const double f[3] = {force.x, force.y, force.z};
-    for (int node = 0; node < 2; ++node) {
+    for (int node = 0; node < 2; ++node)
       for (int k = 0; k < 3; ++k) Add(weight[node] * f[k], &workspace_.rhs[element + node][k]);
-      power_ += weight[node] * Dot(force, GetLane(workspace_.trial[element + node].v, lane_));
-    }
     if (!tangent_) return;
     const Mat3<double> k = -1.0 * (by_position + rate_factor_ * by_velocity);
     AddBlock(weight[0] * weight[0], k, &workspace_.system.diagonal(element));
@@ -48,10 +46,7 @@ class LaneSink : public LoadSink {
   void AddMoment(int node, const Vec3<double>& moment) override {
     const double m[3] = {moment.x, moment.y, moment.z};
     for (int k = 0; k < 3; ++k) Add(m[k], &workspace_.rhs[node][3 + k]);
-    power_ += Dot(moment, GetLane(workspace_.trial[node].omega, lane_));
   }
-
-  double power() const { return power_; }  ///< of what was added [W]
 
  private:
   void Add(double value, T* to) { SetLane(to, lane_, GetLane(*to, lane_) + value); }
@@ -64,15 +59,12 @@ class LaneSink : public LoadSink {
   int lane_;
   bool tangent_;
   double rate_factor_;
-  double power_ = 0;
 };
 
-/// Returns the load's power [W].
 template <class T>
-double AddLoad(const Load& load, int lane, bool tangent, double rate_factor, StepWorkspace<T>* w) {
+void AddLoad(const Load& load, int lane, bool tangent, double rate_factor, StepWorkspace<T>* w) {
   LaneSink<T> sink(w, lane, tangent, rate_factor);
   load.Evaluate(LaneView<T>(w, lane), &sink);
-  return sink.power();
 }
 
 }  // namespace cosserat_cable::rod

@@ -8,7 +8,7 @@
 
 #include "cosserat_cable/math/pose.h"
 #include "cosserat_cable/math/rotation.h"
-#include "step_kernels.h"
+#include "step_coefficients.h"
 
 namespace cosserat_cable::rod {
 
@@ -37,14 +37,16 @@ class PrescribedMotion {
   struct Rates {
     Eigen::Vector3d v = Eigen::Vector3d::Zero(), omega = Eigen::Vector3d::Zero();
   };
+  /// As a node that is moved by `increment` instead of by its coasting velocity.
   static void Advance(const StepCoefficients& c, const Eigen::Vector3d& increment,
                       const Eigen::Vector3d& velocity, const Eigen::Vector3d& rate,
                       Eigen::Vector3d* algorithm, Eigen::Vector3d* next_velocity,
                       Eigen::Vector3d* next_rate) {
-    const Eigen::Vector3d a0 = *algorithm;
-    *algorithm = c.algorithm_by_increment * (increment - c.dt * velocity - c.old_position * a0);
-    *next_velocity = velocity + c.old_velocity * a0 + c.new_velocity * *algorithm;
-    *next_rate = c.new_algorithm * *algorithm + c.old_algorithm * a0 + c.old_rate * rate;
+    const Eigen::Vector3d beyond = increment - c.dt * velocity;
+    *next_velocity = velocity + c.coasting_velocity * *algorithm + c.velocity_by_increment * beyond;
+    *next_rate = c.coasting_rate * *algorithm + c.old_rate * rate + c.rate_by_increment * beyond;
+    *algorithm =
+        c.algorithm_by_rate * (*next_rate - c.old_algorithm * *algorithm - c.old_rate * rate);
   }
 
   Motion motion_;

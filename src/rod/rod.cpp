@@ -1,7 +1,7 @@
 #include "cosserat_cable/rod/rod.h"
 
 #include "rod_impl.h"
-#include "time_step.h"
+#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -33,17 +33,16 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
     m.w.rate[i] = m.w.algorithm[i] = NodeRates<double>{};
   }
   m.w.trial = m.w.node;
-  m.end_a.Start(Motion::Resting(nodes.front()));
-  m.end_b.Start(Motion::Resting(nodes.back()));
   m.PrepareStatics();
   EvaluateForces(&m.w);
-  m.TakeStresses(m.w, 0, true);
-  m.energy.Close();
+  m.ends.a.Start(Motion::Resting(nodes.front()));
+  m.ends.b.Start(Motion::Resting(nodes.back()));
+  m.TakeRest();
 }
 
 void Rod::SetClamps(const Pose& a, const Pose& b) {
-  impl_->end_a.Start(Motion::Resting(a));
-  impl_->end_b.Start(Motion::Resting(b));
+  impl_->ends.a.Start(Motion::Resting(a));
+  impl_->ends.b.Start(Motion::Resting(b));
 }
 
 void Rod::AddRigidMotion(const Motion& frame) {
@@ -67,7 +66,7 @@ void Rod::AddRigidMotion(const Motion& frame) {
       rates->omega += ToSmall(added.alpha);
     }
   }
-  for (EndPart* end : {&impl_->end_a, &impl_->end_b}) {
+  for (EndPart* end : {&impl_->ends.a, &impl_->ends.b}) {
     Motion clamp = end->clamp();
     add(clamp.X, &clamp);
     end->Start(clamp);
@@ -76,30 +75,29 @@ void Rod::AddRigidMotion(const Motion& frame) {
 
 SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load) {
   Impl& m = *impl_;
-  m.w.law = m.LawOfStep(dt);
-  for (int e = 0; e < m.model.elements; ++e) {
-    const SectionValue offset = m.Offset(e);
-    m.w.chain.SetOffset(e, 0, ToSmall(offset.F), ToSmall(offset.M));
+  if (!m.pair.chain) {
+    m.pair.chain = std::make_unique<StepChain<LanePair>>(ChainLayout::Halves(m.model.elements));
+    m.pair.chain->SetHeld(m.model.a.clamped(), m.model.b.clamped());
   }
+  StepChain<LanePair>& chain = *m.pair.chain;
   const StepCoefficients c(dt);
-  m.MoveEnds(c, a, b);
-  LaneTask task;
-  task.active = true;
-  task.length = m.model.length;
-  task.load = load;
-  task.ends = m.ends();
-  SolveStep(c, m.first_free(), m.last_free(), &m.w, &task);
-  if (!task.report.converged) {
-    m.TakeBackEnds();
-    return task.report;
+  m.BeginStep(c, a, b);
+  m.FillChain(0, &chain);
+  const RodState state = m.State();
+  const RodState halves[] = {state, state};
+  rod::Predict(c, halves, &chain);
+  m.HoldInChain(0, &chain);
+  StepOfRod step{true, m.model.length, load, &m.ends, {}, 0};
+  SolveStep(c, &chain, &step);
+  if (!step.report.converged) {
+    m.TakeBackStep();
+    return step.report;
   }
-  m.TakeStresses(m.w, 0, false);
-  for (NodeState& n : m.w.trial) n.q = Normalized(n.q);  // rounding would add up over many steps
-  std::swap(m.w.node, m.w.trial);
-  std::swap(m.w.rate, m.w.trial_rate);
-  std::swap(m.w.algorithm, m.w.trial_algorithm);
-  m.AccountForStep(dt, task.load_power);
-  return task.report;
+  m.TakeStep(chain, 0);
+  const RodState* accepting[] = {&state, &state};
+  Accept(c, chain, accepting);
+  m.AccountForStep(dt, step.load_power);
+  return step.report;
 }
 
 void Rod::Predict(double dt, const Pose& a, const Pose& b,
@@ -117,9 +115,9 @@ Quat<double> Rod::orientation(int i) const { return impl_->w.node[i].q; }
 Pose Rod::pose(int i) const { return {ToEigen(impl_->w.node[i].r), ToEigen(impl_->w.node[i].q)}; }
 Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->w.node[i].omega); }
 Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->w.rate[i].v); }
-Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->stress[e].n); }
-Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->stress[e].m); }
-Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->stress[e].kappa); }
+Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->Stress(e).n); }
+Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->Stress(e).m); }
+Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->Stress(e).kappa); }
 
 Wrench Rod::reaction_a() const {
   return ClampWrench(impl_->missing_a, ToEigen(impl_->w.node.front().q));

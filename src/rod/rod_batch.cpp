@@ -2,58 +2,21 @@
 
 #include <stdexcept>
 
-#include "lane_access.h"
 #include "rod_impl.h"
 #include "time_step.h"
 
 namespace cosserat_cable::rod {
 struct RodBatch::Impl {
-  Impl(const std::vector<Rod*>& all, std::shared_ptr<StepWorkspace<Lanes>> memory)
-      : rods(all), workspace(std::move(memory)), w(*workspace) {}
+  Impl(const std::vector<Rod*>& all, std::shared_ptr<StepChain<Lanes>> memory)
+      : rods(all), chain(std::move(memory)) {}
 
   // Lanes without a rod repeat the first one's and are never active.
   Rod::Impl& OfLane(int lane) {
     return *rods[lane < static_cast<int>(rods.size()) ? lane : 0]->impl_;
   }
 
-  /// State and law of a rod into its lane.
-  void Gather(int lane, double dt) {
-    Rod::Impl& rod = OfLane(lane);
-    SetLane(&w.gravity, lane, rod.w.gravity);
-    for (int i = 0; i < w.count; ++i) {
-      SetLane(&w.mass[i], lane, rod.w.mass[i]);
-      SetLane(&w.inertia[i], lane, rod.w.inertia[i]);
-      SetLane(&w.node[i], lane, rod.w.node[i]);
-      SetLane(&w.rate[i], lane, rod.w.rate[i]);
-      SetLane(&w.algorithm[i], lane, rod.w.algorithm[i]);
-    }
-    SetLane(&w.law, lane, rod.LawOfStep(dt));
-    for (int e = 0; e < w.count - 1; ++e) {
-      const SectionValue offset = rod.Offset(e);
-      w.chain.SetOffset(e, lane, ToSmall(offset.F), ToSmall(offset.M));
-    }
-    for (int end : {0, w.count - 1}) {
-      SetLane(&w.trial[end], lane, rod.w.trial[end]);
-      SetLane(&w.trial_rate[end], lane, rod.w.trial_rate[end]);
-    }
-  }
-
-  /// The iterate of a lane becomes its rod's state.
-  void Scatter(int lane) {
-    Rod::Impl& rod = OfLane(lane);
-    for (int i = 0; i < w.count; ++i) {
-      NodeState& node = rod.w.node[i];
-      node = GetLane(w.trial[i], lane);
-      node.q = Normalized(node.q);  // rounding would add up over many steps
-      rod.w.rate[i] = GetLane(w.trial_rate[i], lane);
-      rod.w.algorithm[i] = GetLane(w.trial_algorithm[i], lane);
-    }
-    rod.TakeStresses(w, lane, false);
-  }
-
   std::vector<Rod*> rods;
-  std::shared_ptr<StepWorkspace<Lanes>> workspace;
-  StepWorkspace<Lanes>& w;
+  std::shared_ptr<StepChain<Lanes>> chain;
 };
 
 RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
@@ -65,9 +28,9 @@ RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
         rod->model().b.clamped() != rods.front()->model().b.clamped())
       throw std::invalid_argument("rods of a batch have equal elements and clamped ends");
   const int elements = rods.front()->elements();
-  auto memory = sharing && sharing->impl_->w.count == elements + 1
-                    ? sharing->impl_->workspace
-                    : std::make_shared<StepWorkspace<Lanes>>(elements);
+  auto memory = sharing && sharing->impl_->chain->layout.elements == elements
+                    ? sharing->impl_->chain
+                    : std::make_shared<StepChain<Lanes>>(ChainLayout::Side(elements));
   impl_ = std::make_unique<Impl>(rods, std::move(memory));
 }
 RodBatch::~RodBatch() = default;
@@ -76,34 +39,39 @@ RodBatch& RodBatch::operator=(RodBatch&&) noexcept = default;
 
 std::vector<SolveReport> RodBatch::Step(double dt, const std::vector<RodDrive>& drives) {
   Impl& m = *impl_;
+  StepChain<Lanes>& chain = *m.chain;
   const int count = static_cast<int>(m.rods.size());
   const StepCoefficients c(dt);
-  LaneTask tasks[kMaxRods];
+  StepOfRod steps[kMaxRods];
+  RodState states[kMaxRods];
   for (int l = 0; l < kMaxRods; ++l) {
     Rod::Impl& rod = m.OfLane(l);
-    LaneTask& task = tasks[l];
-    task.active = l < count && drives[l].a;
-    task.length = rod.model.length;
-    if (task.active) {
-      task.load = drives[l].load;
-      task.ends = rod.ends();
-      rod.MoveEnds(c, *drives[l].a, *drives[l].b);
+    states[l] = rod.State();
+    steps[l].ends = &rod.ends;
+    if (l < count && drives[l].a) {
+      steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
+      rod.BeginStep(c, *drives[l].a, *drives[l].b);
     }
-    m.Gather(l, dt);
+    rod.FillChain(l, &chain);
   }
-  const Rod::Impl& any = m.OfLane(0);
-  SolveStep(c, any.first_free(), any.last_free(), &m.w, tasks);
-  std::vector<SolveReport> reports;
+  chain.SetHeld(m.OfLane(0).model.a.clamped(), m.OfLane(0).model.b.clamped());
+  Predict(c, states, &chain);
+  for (int l = 0; l < kMaxRods; ++l) m.OfLane(l).HoldInChain(l, &chain);
+  SolveStep(c, &chain, steps);
+  const RodState* accepting[kMaxRods] = {};
+  std::vector<SolveReport> reports(count);
   for (int l = 0; l < count; ++l) {
-    Rod::Impl& rod = m.OfLane(l);
-    reports.push_back(tasks[l].report);
-    if (tasks[l].report.converged) {
-      m.Scatter(l);
-      rod.AccountForStep(dt, tasks[l].load_power);
-    } else if (tasks[l].active) {
-      rod.TakeBackEnds();
+    reports[l] = steps[l].report;
+    if (!reports[l].converged) {
+      if (steps[l].active) m.OfLane(l).TakeBackStep();
+      continue;
     }
+    m.OfLane(l).TakeStep(chain, l);
+    accepting[l] = &states[l];
   }
+  Accept(c, chain, accepting);
+  for (int l = 0; l < count; ++l)
+    if (accepting[l]) m.OfLane(l).AccountForStep(dt, steps[l].load_power);
   return reports;
 }
 

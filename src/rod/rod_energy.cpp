@@ -11,7 +11,7 @@ double Rod::Impl::StaticEnergy() const {
     const V3 gamma = now.gamma - w.law.gamma0, kappa = now.kappa - kappa0;
     energy += 0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa)));
   }
-  return energy + end_a.SpringEnergy(w.trial.front()) + end_b.SpringEnergy(w.trial.back());
+  return energy + ends.a.SpringEnergy(w.trial.front()) + ends.b.SpringEnergy(w.trial.back());
 }
 
 double Rod::Impl::GravityEnergy(const std::vector<NodeState>& nodes) const {
@@ -29,35 +29,28 @@ double Rod::Impl::KineticEnergy() const {
   return energy;
 }
 
-double Rod::Impl::ElasticEnergy() const {
+double Rod::Impl::ElasticEnergy() {
   double energy = 0;
   for (int e = 0; e < model.elements; ++e) {
-    const ElementStrain strain = StrainOf(e);
+    const ElementStrain strain = StrainOf(Stress(e));
     const Eigen::Vector3d &gamma = strain.gamma, &kappa = strain.kappa;
     energy += h * (shear1.Energy(shear[e][0], gamma.x()) + shear2.Energy(shear[e][1], gamma.y()) +
                    0.5 * model.section.C_F.z() * gamma.z() * gamma.z() +
                    0.5 * kappa.dot(model.section.C_M.cwiseProduct(kappa)) + branches.Energy(e));
   }
-  return energy + end_a.SpringEnergy(w.node.front()) + end_b.SpringEnergy(w.node.back());
+  return energy + ends.a.SpringEnergy(w.node.front()) + ends.b.SpringEnergy(w.node.back());
 }
 
-double Rod::Impl::StoredEnergy() const {
+double Rod::Impl::StoredEnergy() {
   return KineticEnergy() + ElasticEnergy() + GravityEnergy(w.node);
 }
 
-double Rod::Impl::DissipationRate() const {
-  double rate = 0;
-  for (int e = 0; e < model.elements; ++e) {
-    const ElementStrain strain = StrainOf(e);
-    const Eigen::Vector3d &gamma_dot = strain.gamma_dot, &kappa_dot = strain.kappa_dot;
-    rate += h * (shear1.DissipationRate(shear[e][0], gamma_dot.x()) +
-                 shear2.DissipationRate(shear[e][1], gamma_dot.y()) +
-                 model.section.V_F.z() * gamma_dot.z() * gamma_dot.z() +
-                 kappa_dot.dot(model.section.V_M.cwiseProduct(kappa_dot)) +
-                 branches.DissipationRate(e));
-  }
-  return rate + end_a.SpringDissipationRate(w.node.front()) +
-         end_b.SpringDissipationRate(w.node.back());
+double Rod::Impl::DissipationRate(int e, const ElementStrain& strain) const {
+  const Eigen::Vector3d &gamma_dot = strain.gamma_dot, &kappa_dot = strain.kappa_dot;
+  return shear1.DissipationRate(shear[e][0], gamma_dot.x()) +
+         shear2.DissipationRate(shear[e][1], gamma_dot.y()) +
+         model.section.V_F.z() * gamma_dot.z() * gamma_dot.z() +
+         kappa_dot.dot(model.section.V_M.cwiseProduct(kappa_dot)) + branches.DissipationRate(e);
 }
 
 double Rod::Impl::EndPower() const {
@@ -66,11 +59,13 @@ double Rod::Impl::EndPower() const {
     return end.Power(node, {-missing[0], -missing[1], -missing[2]},
                      {-missing[3], -missing[4], -missing[5]});
   };
-  return power(end_a, w.node.front(), missing_a) + power(end_b, w.node.back(), missing_b);
+  return power(ends.a, w.node.front(), missing_a) + power(ends.b, w.node.back(), missing_b);
 }
 
 void Rod::Impl::AccountForStep(double dt, double load_power) {
-  energy.Add(dt, {EndPower(), load_power, DissipationRate()});
+  const double in_ends =
+      ends.a.SpringDissipationRate(w.node.front()) + ends.b.SpringDissipationRate(w.node.back());
+  energy.Add(dt, {EndPower(), load_power, dissipation_rate_ + in_ends});
 }
 
 EnergyBalance Rod::energy_balance() const { return impl_->energy.Balance(impl_->StoredEnergy()); }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "lane_access.h"
+#include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -13,16 +13,6 @@ ShearSeries MakeShearSeries(const Section& section, double h, int shear_axis, in
                      12 * section.V_M[bending_axis] / (h * h));
 }
 
-void Hold(const Motion& motion, const NodeState& before, NodeState* node, NodeRates<double>* rate) {
-  node->r = ToSmall(motion.X.p);
-  node->q = ToSmall(motion.X.q);
-  // q and -q are the same rotation: stay on the side from which the neighbours were reached.
-  if (Dot(node->q, before.q) < 0) node->q = {-node->q.w, -node->q.x, -node->q.y, -node->q.z};
-  node->v = ToSmall(motion.v);
-  node->omega = ToSmall(motion.omega);
-  *rate = {ToSmall(motion.a), ToSmall(motion.alpha)};
-}
-
 }  // namespace
 
 Rod::Impl::Impl(const RodModel& m)
@@ -31,15 +21,15 @@ Rod::Impl::Impl(const RodModel& m)
       shear1(MakeShearSeries(m.section, h, 0, 1)),  // shear along a1 goes with bending about a2
       shear2(MakeShearSeries(m.section, h, 1, 0)),
       branches(m.branches, m.elements),
-      end_a(m.a),
-      end_b(m.b),
+      ends{EndPart(m.a), EndPart(m.b)},
       w(m.elements),
       shear(m.elements),
-      stress(m.elements),
+      offsets(m.elements),
       missing_a{},
       missing_b{},
-      end_a_before_(end_a),
-      end_b_before_(end_b) {
+      ends_before_(ends),
+      next_offsets_(m.elements),
+      stress_(m.elements) {
   for (int i = 0; i < w.count; ++i) {
     const double share = (i == 0 || i == w.count - 1) ? 0.5 * h : h;
     w.mass[i] = share * m.section.rhoA;
@@ -76,72 +66,67 @@ void Rod::Impl::PrepareStatics() {
 ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
   shear1.BeginStep(dt);
   shear2.BeginStep(dt);
-  ElementLaw<double> law = {h,
-                            {shear1.C(), shear2.C(), model.section.C_F.z()},
-                            ToSmall(model.section.C_M),
-                            {shear1.V(), shear2.V(), model.section.V_F.z()},
-                            ToSmall(model.section.V_M),
-                            ToSmall(model.section.gamma0)};
+  ElementLaw<double> law_of_step = {h,
+                                    {shear1.C(), shear2.C(), model.section.C_F.z()},
+                                    ToSmall(model.section.C_M),
+                                    {shear1.V(), shear2.V(), model.section.V_F.z()},
+                                    ToSmall(model.section.V_M),
+                                    ToSmall(model.section.gamma0)};
   if (!branches.empty()) {
     branches.BeginStep(dt);
     const SectionValue more = branches.StepStiffness();
-    law.C_F += ToSmall(more.F);
-    law.C_M += ToSmall(more.M);
+    law_of_step.C_F += ToSmall(more.F);
+    law_of_step.C_M += ToSmall(more.M);
   }
-  step_C_M = ToEigen(law.C_M);
-  return law;
+  return law_of_step;
 }
 
-SectionValue Rod::Impl::Offset(int element) const {
-  SectionValue offset;
-  offset.F.x() = shear1.Offset(shear[element][0]);
-  offset.F.y() = shear2.Offset(shear[element][1]);
-  offset.M = -step_C_M.cwiseProduct(model.section.kappa0);
-  if (!branches.empty()) offset += branches.Offset(element);
+ElementOffset<double> Rod::Impl::Offset(const ElementLaw<double>& law_of_step, int element) const {
+  ElementOffset<double> offset = {
+      {shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0},
+      -Scale(law_of_step.C_M, ToSmall(model.section.kappa0))};
+  if (!branches.empty()) {
+    const SectionValue more = branches.Offset(element);
+    offset.F += ToSmall(more.F);
+    offset.M += ToSmall(more.M);
+  }
   return offset;
 }
 
-void Rod::Impl::MoveEnds(const StepCoefficients& c, const Pose& a, const Pose& b) {
-  if (!energy.open()) energy.Open({EndPower(), 0, DissipationRate()}, StoredEnergy());
-  end_a_before_ = end_a;
-  end_b_before_ = end_b;
-  end_a.MoveTo(a, c);
-  end_b.MoveTo(b, c);
-  if (model.a.clamped())
-    Hold(end_a.clamp(), w.node.front(), &w.trial.front(), &w.trial_rate.front());
-  if (model.b.clamped()) Hold(end_b.clamp(), w.node.back(), &w.trial.back(), &w.trial_rate.back());
+ElementStrain Rod::Impl::StrainOf(const ElementStress& now) const {
+  return {ToEigen(now.gamma) - model.section.gamma0, ToEigen(now.gamma_dot),
+          ToEigen(now.kappa) - model.section.kappa0, ToEigen(now.kappa_dot)};
 }
 
-void Rod::Impl::TakeBackEnds() {
-  end_a = end_a_before_;
-  end_b = end_b_before_;
-}
-
-ElementStrain Rod::Impl::StrainOf(int e) const {
-  return {ToEigen(stress[e].gamma) - model.section.gamma0, ToEigen(stress[e].gamma_dot),
-          ToEigen(stress[e].kappa) - model.section.kappa0, ToEigen(stress[e].kappa_dot)};
-}
-
-template <class T>
-void Rod::Impl::TakeStresses(const StepWorkspace<T>& from, int lane, bool at_rest) {
-  missing_a = GetLane(from.rhs.front(), lane);
-  missing_b = GetLane(from.rhs.back(), lane);
+void Rod::Impl::TakeRest() {
+  missing_a = w.rhs.front();
+  missing_b = w.rhs.back();
+  law = w.law;
+  const V3 unbend = -Scale(law.C_M, ToSmall(model.section.kappa0));
   for (int e = 0; e < model.elements; ++e) {
-    stress[e] = from.chain.Stress(e, lane);
-    const ElementStrain strain = StrainOf(e);
-    const Eigen::Vector3d &gamma = strain.gamma, &rate = strain.gamma_dot;
-    if (at_rest) {
-      shear[e] = {shear1.Rest(gamma.x()), shear2.Rest(gamma.y())};
-      branches.Rest(e, strain);
-    } else {
-      shear[e] = {shear1.Commit(shear[e][0], gamma.x(), rate.x()),
-                  shear2.Commit(shear[e][1], gamma.y(), rate.y())};
-      branches.Commit(e, strain);
-    }
+    stress_[e] = w.chain.Stress(e, 0);
+    const ElementStrain strain = StrainOf(stress_[e]);
+    shear[e] = {shear1.Rest(strain.gamma.x()), shear2.Rest(strain.gamma.y())};
+    branches.Rest(e, strain);
+    offsets[e] = {V3{}, unbend};
   }
+  stress_known_ = true;
+  dissipation_rate_ = 0;
+  energy.Close();
 }
 
-template void Rod::Impl::TakeStresses(const StepWorkspace<double>&, int, bool);
-template void Rod::Impl::TakeStresses(const StepWorkspace<Lanes>&, int, bool);
+void Rod::Impl::EvaluateStress() {
+  w.law = law;
+  for (int e = 0; e < model.elements; ++e) w.chain.SetOffset(e, 0, offsets[e].F, offsets[e].M);
+  w.trial = w.node;
+  EvaluateForces(&w);
+  for (int e = 0; e < model.elements; ++e) stress_[e] = w.chain.Stress(e, 0);
+  stress_known_ = true;
+}
+
+const ElementStress& Rod::Impl::Stress(int element) {
+  if (!stress_known_) EvaluateStress();
+  return stress_[element];
+}
 
 }  // namespace cosserat_cable::rod

@@ -2,21 +2,30 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/rod.h"
 #include "end_part.h"
 #include "energy_book.h"
-#include "lane_ends.h"
 #include "section_branches.h"
 #include "shear_series.h"
 #include "step_workspace.h"
+#include "time_step.h"
 
 namespace cosserat_cable::rod {
 
 using V3 = Vec3<double>;
 using NodeState = Node<double>;
+
+/// What a single rod needs for a step; set up by the first one, not copied with the rod.
+struct PairMemory {
+  PairMemory() = default;
+  PairMemory(const PairMemory&) {}
+  PairMemory& operator=(const PairMemory&) { return *this; }
+  std::unique_ptr<StepChain<LanePair>> chain;
+};
 
 struct Rod::Impl {
   explicit Impl(const RodModel& m);
@@ -25,54 +34,73 @@ struct Rod::Impl {
   double h;  // element length [m]
   ShearSeries shear1, shear2;
   SectionBranches branches;
-  EndPart end_a, end_b;
+  EndParts ends;
   StepWorkspace<double> w;  // `node`, `rate` and `algorithm` are the state
 
   // The rest of the state, by element.
   using ShearHistory = std::array<ShearSeries::History, 2>;
   std::vector<ShearHistory> shear;
-  std::vector<ElementStress> stress;
+  // With what law and offsets the elements' stresses follow from the state.
+  ElementLaw<double> law;
+  std::vector<ElementOffset<double>> offsets;
   Vec6<double> missing_a, missing_b;  // what the end nodes lack to balance: the clamps supply it
   EnergyBook energy;
-  Eigen::Vector3d step_C_M = Eigen::Vector3d::Zero();  // of the step begun [N m^2]
 
+  // The nodes that are unknown.
   int first_free() const { return model.a.clamped() ? 1 : 0; }
   int last_free() const { return model.b.clamped() ? w.count - 2 : w.count - 1; }
-  LaneEnds ends() const {
-    return {end_a.active() ? &end_a : nullptr, end_b.active() ? &end_b : nullptr};
-  }
 
   void PrepareStatics();
   /// The section law over a step of `dt` [s], without the elements' offsets.
   ElementLaw<double> LawOfStep(double dt);
-  /// What internal variables and the unstressed curvature add to the stresses of an element in the
-  /// step that LawOfStep began.
-  SectionValue Offset(int element) const;
-  /// The clamps where the step is to end; TakeBackEnds after a step that failed.
-  void MoveEnds(const StepCoefficients& c, const Pose& a, const Pose& b);
-  void TakeBackEnds();
+  /// What internal variables and the unstressed curvature add to the stresses of an element in a
+  /// step with this law.
+  ElementOffset<double> Offset(const ElementLaw<double>& law_of_step, int element) const;
 
-  /// Takes over what lane `lane` of a workspace found: stresses, end forces and internal variables,
-  /// at rest or at the end of the step that LawOfStep began.
+  /// Law, offsets and clamps of the step.
+  void BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b);
+  /// The clamps are where they were: the step begun has failed.
+  void TakeBackStep() { ends = ends_before_; }
+  RodState State() { return {w.node.data(), w.rate.data(), w.algorithm.data()}; }
+  /// What a chain needs of the rod besides its state, into a lane, or into both halves.
   template <class T>
-  void TakeStresses(const StepWorkspace<T>& from, int lane, bool at_rest);
-  /// After a step of `dt` [s], its state being in place.
+  void FillChain(int lane, StepChain<T>* chain) const;
+  /// The clamped ends into the chain's first iterate.
+  template <class T>
+  void HoldInChain(int lane, StepChain<T>* chain) const;
+  /// Takes over what a chain found besides the state: internal variables and end forces.
+  template <class T>
+  void TakeStep(const StepChain<T>& chain, int lane);
+  /// After a step of `dt` [s] whose state is in place.
   void AccountForStep(double dt, double load_power);
+  /// The equilibrium in `trial` becomes what stresses, end forces and internal variables are of.
+  void TakeRest();
 
-  /// Of the iterate, elastic in statics.
+  /// Of an element in the present state. Found when first asked for.
+  const ElementStress& Stress(int element);
+
+  /// Of the iterate that was evaluated last, at rest.
   double StaticEnergy() const;
   double GravityEnergy(const std::vector<NodeState>& nodes) const;
   /// Of the state.
   double KineticEnergy() const;
-  double ElasticEnergy() const;
-  double StoredEnergy() const;  // all of it
+  double ElasticEnergy();
+  double StoredEnergy();  // all of it
+
+  PairMemory pair;
 
  private:
-  EndPart end_a_before_, end_b_before_;
-
-  ElementStrain StrainOf(int element) const;
+  void EvaluateStress();
+  ElementStrain StrainOf(const ElementStress& stress) const;
+  double DissipationRate(int element, const ElementStrain& strain) const;  // per length [W/m]
   double EndPower() const;
-  double DissipationRate() const;
+
+  ElementLaw<double> next_law_;  // of the step begun
+  EndParts ends_before_;         // its start
+  double dissipation_rate_ = 0;  // of the sections [W]
+  std::vector<ElementOffset<double>> next_offsets_;
+  std::vector<ElementStress> stress_;
+  bool stress_known_ = false;
 };
 
 }  // namespace cosserat_cable::rod

@@ -9,41 +9,58 @@ namespace cosserat_cable::rod {
 /// Functions of x^2 with x = tan(angle/4), the length of the modified Rodrigues vector.
 template <class T>
 struct ArcTangentSeries {
-  T A;  ///< atan(x)/x, so that angle = 4 A x
-  T B;  ///< (1 - A (1 - x^2))/x^2
+  T angle;  ///< 4 atan(x)/x, so that the rotation vector is `angle` times the Rodrigues vector
+  T tau;    ///< 1/angle
+  T c;      ///< (1 - (angle/2) cot(angle/2))/angle^2
 };
 
-// A = sum (-x2)^k/(2k+1), B = sum (-x2)^k (1/(2k+1) + 1/(2k+3)); seven terms are exact to rounding
-// (x2^7/15 < 1e-16) below this, an angle of 0.35 rad in one element.
+// Below this, an angle of 0.35 rad in one element, the series are exact to rounding: seven terms of
+// the first (x2^7/15 < 1e-16); the other two are multiplied by the angle and its square.
 constexpr double kArcTangentSeriesBelow = 0.0075;
 
 template <class T>
 ArcTangentSeries<T> SumArcTangentSeries(const T& x2) {
-  constexpr auto a = [](int k) { return 1.0 / (2 * k + 1); };
-  constexpr auto b = [](int k) { return 1.0 / (2 * k + 1) + 1.0 / (2 * k + 3); };
-  constexpr double kA[] = {a(0), a(1), a(2), a(3), a(4), a(5), a(6)};
-  constexpr double kB[] = {b(0), b(1), b(2), b(3), b(4), b(5), b(6)};
-  const auto horner = [&x2](const double* c) {
-    return c[0] - x2 * (c[1] - x2 * (c[2] - x2 * (c[3] - x2 * (c[4] - x2 * (c[5] - x2 * c[6])))));
-  };
-  return {horner(kA), horner(kB)};
+  ArcTangentSeries<T> s;
+  s.angle =
+      4.0 -
+      x2 * (4.0 / 3 -
+            x2 * (4.0 / 5 - x2 * (4.0 / 7 - x2 * (4.0 / 9 - x2 * (4.0 / 11 - x2 * (4.0 / 13))))));
+  s.tau =
+      1.0 / 4 +
+      x2 * (1.0 / 12 -
+            x2 * (1.0 / 45 - x2 * (11.0 / 945 - x2 * (107.0 / 14175 - x2 * (2549.0 / 467775 -
+                                                                            x2 * 0.0041968878)))));
+  s.c = 1.0 / 12 +
+        x2 * (1.0 / 45 -
+              x2 * (2.0 / 315 - x2 * (7.0 / 2025 - x2 * (1076.0 / 467775 - x2 * 0.0016922626))));
+  return s;
 }
 
 inline ArcTangentSeries<double> EvaluateArcTangent(double x2) {
   if (x2 < kArcTangentSeriesBelow) return SumArcTangentSeries(x2);
   const double x = std::sqrt(x2);
   const double A = std::atan(x) / x;
-  return {A, (1.0 - A * (1.0 - x2)) / x2};
+  return {4 * A, 0.25 / A, (1.0 - A * (1.0 - x2)) / (16 * A * A * x2)};
 }
 
-inline ArcTangentSeries<Lanes> EvaluateArcTangent(const Lanes& x2) {
-  ArcTangentSeries<Lanes> series = SumArcTangentSeries(x2);
-  for (int lane = 0; lane < Lanes::kCount; ++lane) {
+/// Replaces what the series gave in the lanes whose angle is too large for them. Not inline, for it
+/// is rare.
+template <int N>
+__attribute__((noinline)) void CorrectArcTangent(const BasicLanes<N>& x2,
+                                                 ArcTangentSeries<BasicLanes<N>>* series) {
+  for (int lane = 0; lane < N; ++lane) {
     if (x2[lane] < kArcTangentSeriesBelow) continue;
     const ArcTangentSeries<double> one = EvaluateArcTangent(x2[lane]);
-    series.A.v[lane] = one.A;
-    series.B.v[lane] = one.B;
+    SetLane(&series->angle, lane, one.angle);
+    SetLane(&series->tau, lane, one.tau);
+    SetLane(&series->c, lane, one.c);
   }
+}
+
+template <int N>
+ArcTangentSeries<BasicLanes<N>> EvaluateArcTangent(const BasicLanes<N>& x2) {
+  ArcTangentSeries<BasicLanes<N>> series = SumArcTangentSeries(x2);
+  CorrectArcTangent(x2, &series);
   return series;
 }
 
@@ -72,18 +89,18 @@ inline Quat<double> Exp(const Vec3<double>& phi) {
   return {std::cos(half), s * phi.x, s * phi.y, s * phi.z};
 }
 
-inline Quat<Lanes> Exp(const Vec3<Lanes>& phi) {
-  const Lanes y = 0.25 * Dot(phi, phi);
-  Quat<Lanes> q = ExpSeries(phi, y);
-  for (int lane = 0; lane < Lanes::kCount; ++lane) {
+/// Replaces what the series gave in the lanes whose angle is too large for it.
+template <int N>
+__attribute__((noinline)) void CorrectExp(const Vec3<BasicLanes<N>>& phi, const BasicLanes<N>& y,
+                                          Quat<BasicLanes<N>>* q) {
+  for (int lane = 0; lane < N; ++lane) {
     if (y[lane] < kExpSeriesBelow) continue;
     const Quat<double> one = Exp(Vec3<double>{phi.x[lane], phi.y[lane], phi.z[lane]});
-    q.w.v[lane] = one.w;
-    q.x.v[lane] = one.x;
-    q.y.v[lane] = one.y;
-    q.z.v[lane] = one.z;
+    SetLane(&q->w, lane, one.w);
+    SetLane(&q->x, lane, one.x);
+    SetLane(&q->y, lane, one.y);
+    SetLane(&q->z, lane, one.z);
   }
-  return q;
 }
 
 }  // namespace cosserat_cable::rod

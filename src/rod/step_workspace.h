@@ -1,19 +1,13 @@
-// The unknowns of a step and what it needs to find them: of one rod, or of four side by side.
+// A rod's state, and the unknowns of its equilibrium with what it takes to find them.
 #pragma once
 
 #include <vector>
 
 #include "block_tridiagonal.h"
 #include "element_chain.h"
+#include "step_chain.h"
 
 namespace cosserat_cable::rod {
-
-/// Time derivatives of a node's velocity [m/s^2] and of its angular velocity in the section's frame
-/// [rad/s^2].
-template <class T>
-struct NodeRates {
-  Vec3<T> v, omega;
-};
 
 template <class T>
 struct StepWorkspace {
@@ -26,8 +20,6 @@ struct StepWorkspace {
         algorithm(count),
         trial(count),
         trial_rate(count),
-        trial_algorithm(count),
-        increment(count),
         rhs(count),
         chain(elements),
         system(count) {}
@@ -43,11 +35,10 @@ struct StepWorkspace {
   std::vector<NodeRates<T>> rate;       // true accelerations
   std::vector<NodeRates<T>> algorithm;  // generalised-alpha's own
 
-  // The iterate.
+  // The iterate; of a time step only the ends that are held.
   std::vector<Node<T>> trial;
-  std::vector<NodeRates<T>> trial_rate, trial_algorithm;
-  std::vector<Vec6<T>> increment;  // of the step: displacement, rotation vector
-  std::vector<Vec6<T>> rhs;        // minus the residual, then the correction
+  std::vector<NodeRates<T>> trial_rate;
+  std::vector<Vec6<T>> rhs;  // minus the residual, then the correction
   ElementChain<T> chain;
   BlockTridiagonal<T> system;
 };

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lane_view.h"
+#include "chain_ends.h"
+#include "chain_load.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -18,89 +19,87 @@ constexpr double kRoundOff = 1e-12;
 // fixed rule, so that no rod sees what its neighbours in the lanes need.
 constexpr int kRefactorFrom = 3;
 
-/// Takes the corrections of one lane back.
+/// Of the lanes of one rod.
 template <class T>
-void ClearLane(int first, int last, int lane, std::vector<Vec6<T>>* rhs) {
-  for (int i = first; i <= last; ++i)
-    for (int k = 0; k < 6; ++k) SetLane(&(*rhs)[i][k], lane, 0.0);
+double Largest(const T& x, int rod, bool halves) {
+  return halves ? std::max(GetLane(x, 0), GetLane(x, 1)) : GetLane(x, rod);
 }
 
 }  // namespace
 
 template <class T>
-void SolveStep(const StepCoefficients& c, int first, int last, StepWorkspace<T>* w,
-               LaneTask* tasks) {
+void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) {
   constexpr int kLanes = kLaneCount<T>;
+  const bool halves = chain->layout.halves;
+  const int count = halves ? 1 : kLanes;
   bool running[kLanes];
   double previous[kLanes] = {};
-  for (int l = 0; l < kLanes; ++l) {
-    running[l] = tasks[l].active;
-    tasks[l].report = SolveReport();
+  for (int r = 0; r < count; ++r) {
+    running[r] = rods[r].active;
+    rods[r].report = SolveReport();
   }
   const auto any_running = [&] {
-    return std::any_of(running, running + kLanes, [](bool r) { return r; });
+    return std::any_of(running, running + count, [](bool x) { return x; });
   };
-  const auto for_each_running = [&](auto act) {
-    for (int l = 0; l < kLanes; ++l)
-      if (running[l]) act(l, tasks[l]);
-  };
-  const auto balance = [&] {
-    UpdateNodes(c, first, last, w);
-    for (int l = 0; l < kLanes; ++l) ImposeEndRates(tasks[l].ends, l, w);
-    EvaluateForces(w);
-    SubtractInertia(w);
+  const auto add_loads = [&](bool tangent, bool with_ends, const auto& wanted) {
+    chain->loaded = false;
+    for (int r = 0; r < count; ++r) {
+      const bool ends = with_ends && rods[r].ends->active();
+      if ((!rods[r].load && !ends) || !wanted(r)) continue;
+      if (!chain->loaded) ClearLoads(chain);
+      chain->loaded = true;
+      if (rods[r].load)
+        rods[r].load_power = AddLoad(*rods[r].load, r, tangent, c.velocity_by_increment, chain);
+      if (ends) AddEnds(c, *rods[r].ends, r, tangent, chain);
+    }
   };
 
-  // Constant velocity: a predictor with the acceleration blows up after a velocity jump.
-  Predict(c, first, last, w);
-  for_each_running([&](int l, const LaneTask& task) { ImposeEnds(task.ends, l, w); });
+  const auto impose_ends = [&] {
+    for (int r = 0; r < count; ++r)
+      if (running[r]) ImposeEnds(c, *rods[r].ends, r, chain);
+  };
+
+  impose_ends();
   for (int iteration = 1; iteration <= kMaxIterations && any_running(); ++iteration) {
-    balance();
     const bool fresh = iteration == 1 || iteration >= kRefactorFrom;
-    if (fresh) AssembleTangent(c.velocity_by_increment, w);
-    for_each_running([&](int l, const LaneTask& task) {
-      if (task.load) AddLoad(*task.load, l, fresh, c.velocity_by_increment, w);
-    });
-    if (fresh) AddInertia(c, first, last, w);
-    for_each_running([&](int l, const LaneTask& task) {
-      ConstrainEnds(task.ends, l, fresh, c.velocity_by_increment, w);
-    });
+    add_loads(fresh, true, [&](int r) { return running[r]; });
     T pivot(1.0);
-    if (fresh) Factorise(first, last, w, &pivot);
-    Solve(w);
-    const CorrectionSize<T> size = MeasureCorrection(first, last, *w);
-    for (int l = 0; l < kLanes; ++l) {
-      if (!running[l]) {
-        ClearLane(first, last, l, &w->rhs);
-        continue;
-      }
-      SolveReport& report = tasks[l].report;
+    EliminateForward(c, fresh, chain, &pivot);
+    T keep(1.0);
+    for (int r = 0; r < count; ++r)
+      if (!running[r])
+        for (int l = 0; l < kLanes; ++l)
+          if (halves || l == r) SetLane(&keep, l, 0.0);
+    ChainCorrection<T> size;
+    CorrectBackward(c, keep, chain, &size);
+    impose_ends();
+    for (int r = 0; r < count; ++r) {
+      if (!running[r]) continue;
+      SolveReport& report = rods[r].report;
       report.iterations = iteration;
-      report.correction =
-          std::max(GetLane(size.translation, l) / tasks[l].length, GetLane(size.rotation, l));
-      if (!std::isfinite(GetLane(size.sum, l)) || !(GetLane(pivot, l) > 0)) {
-        running[l] = false;
-        ClearLane(first, last, l, &w->rhs);
+      report.correction = std::max(std::sqrt(Largest(size.translation, r, halves)) / rods[r].length,
+                                   std::sqrt(Largest(size.rotation, r, halves)));
+      const double sum =
+          halves ? GetLane(size.sum, 0) + GetLane(size.sum, 1) : GetLane(size.sum, r);
+      const bool definite = -Largest(-pivot, r, halves) > 0;
+      if (!std::isfinite(sum) || !definite) {
+        running[r] = false;
         continue;
       }
-      const double contraction = previous[l] > 0 ? report.correction / previous[l] : 1.0;
+      const double contraction = previous[r] > 0 ? report.correction / previous[r] : 1.0;
       report.converged =
           report.correction < kRoundOff || contraction * report.correction < kTolerance;
-      running[l] = !report.converged;
-      previous[l] = report.correction;
+      running[r] = !report.converged;
+      previous[r] = report.correction;
     }
-    Correct(first, last, w);
-    for (int l = 0; l < kLanes; ++l) ImposeEnds(tasks[l].ends, l, w);
   }
 
-  // What the accepted iterate's forces are.
-  balance();
-  for (int l = 0; l < kLanes; ++l)
-    if (tasks[l].report.converged && tasks[l].load)
-      tasks[l].load_power = AddLoad(*tasks[l].load, l, false, c.velocity_by_increment, w);
+  EvaluateAccepted(chain);
+  // What the clamps exert is not a load: it is what their nodes lack.
+  add_loads(false, false, [&](int r) { return rods[r].report.converged; });
 }
 
-template void SolveStep(const StepCoefficients&, int, int, StepWorkspace<double>*, LaneTask*);
-template void SolveStep(const StepCoefficients&, int, int, StepWorkspace<Lanes>*, LaneTask*);
+template void SolveStep(const StepCoefficients&, StepChain<Lanes>*, StepOfRod*);
+template void SolveStep(const StepCoefficients&, StepChain<LanePair>*, StepOfRod*);
 
 }  // namespace cosserat_cable::rod

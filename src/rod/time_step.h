@@ -1,27 +1,26 @@
 // One implicit step of generalised-alpha on the configuration space R^3 x SO(3) per node.
 #pragma once
 
+#include "chain_kernels.h"
 #include "cosserat_cable/rod/rod.h"
-#include "lane_ends.h"
-#include "step_kernels.h"
+#include "end_part.h"
 
 namespace cosserat_cable::rod {
 
-/// The rod in one lane during one step.
-struct LaneTask {
-  bool active = false;  ///< otherwise it is left out
-  double length = 0;    ///< [m]
+/// What a step needs to know of one rod, and says of it.
+struct StepOfRod {
+  bool active = false;  ///< others are left out
+  double length = 1;    ///< [m]
   const Load* load = nullptr;
-  LaneEnds ends;
-  SolveReport report;     ///< out
-  double load_power = 0;  ///< out: of `load` at the step's end [W]
+  const EndParts* ends = nullptr;  ///< of every rod in the chain
+  SolveReport report;              ///< out
+  double load_power = 0;           ///< out: of `load` at the step's end [W]
 };
 
-/// Finds the iterate in which all forces balance, for the rod in each lane. Expects `node`, `rate`,
-/// `algorithm`, law and offsets set, and clamped ends in `trial` and `trial_rate`; nodes
-/// `first`..`last` are unknown. A lane's result does not depend on the others.
+/// Finds the iterate in which all forces balance, for each rod of the chain. Expects the first
+/// iterate and the held ends, law and offsets in the chain; leaves strains and end forces there. A
+/// rod's result does not depend on the others. `rods`: by lane; of one in halves, that one.
 template <class T>
-void SolveStep(const StepCoefficients& c, int first, int last, StepWorkspace<T>* w,
-               LaneTask* tasks);
+void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods);
 
 }  // namespace cosserat_cable::rod

@@ -1,46 +1,75 @@
-// Four doubles side by side as one scalar type. The kernel's templates work on one double, or on
-// lanes: four elements of one cable, or four cables.
+// Doubles side by side as one scalar type. The kernel's templates work on one double, or on lanes:
+// four cables, or the two halves of one.
 #pragma once
 
 #include <cmath>
 
 namespace cosserat_cable {
 
-struct alignas(32) Lanes {
-  static constexpr int kCount = 4;
-  // GCC's vector extension: native with AVX2, split in two with SSE2 or NEON.
-  typedef double Vector __attribute__((vector_size(8 * kCount)));
+// GCC's vector extension: native where the machine has vectors this wide, else split.
+template <int N>
+struct VectorOf;
+template <>
+struct VectorOf<2> {
+  typedef double Type __attribute__((vector_size(16)));
+};
+template <>
+struct VectorOf<4> {
+  typedef double Type __attribute__((vector_size(32)));
+};
+
+template <int N>
+struct alignas(8 * N) BasicLanes {
+  static constexpr int kCount = N;
+  using Vector = typename VectorOf<N>::Type;
   Vector v;
 
-  Lanes() = default;
-  Lanes(double s) : v{s, s, s, s} {}  // NOLINT: a number stands for itself in every lane
-  Lanes(double a, double b, double c, double d) : v{a, b, c, d} {}
-  static Lanes Of(const Vector& vector) {
-    Lanes lanes;
+  BasicLanes() = default;
+  // Copied as a vector: GCC takes apart the bytes of a struct that is wider than the vectors of the
+  // oldest machine it compiles for.
+  BasicLanes(const BasicLanes& b) : v(b.v) {}
+  BasicLanes& operator=(const BasicLanes& b) {
+    v = b.v;
+    return *this;
+  }
+  BasicLanes(double s) {  // NOLINT: a number stands for itself in every lane
+    v = s - Vector{};
+  }
+  static BasicLanes Of(const Vector& vector) {
+    BasicLanes lanes;
     lanes.v = vector;
     return lanes;
   }
 
   double operator[](int lane) const { return v[lane]; }
 
-  Lanes& operator+=(const Lanes& b) {
+  BasicLanes& operator+=(const BasicLanes& b) {
     v += b.v;
     return *this;
   }
-  Lanes& operator-=(const Lanes& b) {
+  BasicLanes& operator-=(const BasicLanes& b) {
     v -= b.v;
     return *this;
   }
+
+  // Friends, so that a double on one side is taken for lanes.
+  friend BasicLanes operator+(const BasicLanes& a, const BasicLanes& b) { return Of(a.v + b.v); }
+  friend BasicLanes operator-(const BasicLanes& a, const BasicLanes& b) { return Of(a.v - b.v); }
+  friend BasicLanes operator*(const BasicLanes& a, const BasicLanes& b) { return Of(a.v * b.v); }
+  friend BasicLanes operator/(const BasicLanes& a, const BasicLanes& b) { return Of(a.v / b.v); }
+  friend BasicLanes operator-(const BasicLanes& a) { return Of(-a.v); }
+  friend BasicLanes Max(const BasicLanes& a, const BasicLanes& b) {
+    return Of(a.v > b.v ? a.v : b.v);
+  }
+  friend BasicLanes Min(const BasicLanes& a, const BasicLanes& b) {
+    return Of(a.v < b.v ? a.v : b.v);
+  }
 };
 
-inline Lanes operator+(const Lanes& a, const Lanes& b) { return Lanes::Of(a.v + b.v); }
-inline Lanes operator-(const Lanes& a, const Lanes& b) { return Lanes::Of(a.v - b.v); }
-inline Lanes operator*(const Lanes& a, const Lanes& b) { return Lanes::Of(a.v * b.v); }
-inline Lanes operator/(const Lanes& a, const Lanes& b) { return Lanes::Of(a.v / b.v); }
-inline Lanes operator-(const Lanes& a) { return Lanes::Of(-a.v); }
-inline Lanes sqrt(const Lanes& a) {
-  return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
-}
+/// Four cables, side by side.
+using Lanes = BasicLanes<4>;
+/// The two halves of a cable.
+using LanePair = BasicLanes<2>;
 
 // Through a type that may lie anywhere: GCC takes a copy of four doubles apart.
 typedef double UnalignedLanes
@@ -58,18 +87,22 @@ inline void StoreLanes(const Lanes& lanes, double* to) {
 
 template <class T>
 inline constexpr int kLaneCount = 1;
-template <>
-inline constexpr int kLaneCount<Lanes> = Lanes::kCount;
+template <int N>
+inline constexpr int kLaneCount<BasicLanes<N>> = N;
 
 inline double GetLane(double value, int) { return value; }
-inline double GetLane(const Lanes& value, int lane) { return value[lane]; }
+template <int N>
+double GetLane(const BasicLanes<N>& value, int lane) {
+  return value[lane];
+}
 inline void SetLane(double* value, int, double x) { *value = x; }
-inline void SetLane(Lanes* value, int lane, double x) { value->v[lane] = x; }
+template <int N>
+void SetLane(BasicLanes<N>* value, int lane, double x) {
+  value->v[lane] = x;
+}
 
 inline double Max(double a, double b) { return a > b ? a : b; }
-inline Lanes Max(const Lanes& a, const Lanes& b) { return Lanes::Of(a.v > b.v ? a.v : b.v); }
 inline double Min(double a, double b) { return a < b ? a : b; }
-inline Lanes Min(const Lanes& a, const Lanes& b) { return Lanes::Of(a.v < b.v ? a.v : b.v); }
 template <class T>
 T Abs(const T& a) {
   return Max(a, -a);

@@ -1,0 +1,155 @@
+// The unknowns of a time step and what it needs to find them, in the order in which the solver runs
+// over them: four rods side by side, each from its first node to its last; or one rod from both
+// ends to a node in its middle, so that its halves are side by side.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "element.h"
+#include "node_elimination.h"
+
+namespace cosserat_cable::rod {
+
+/// Time derivatives of a node's velocity [m/s^2] and of its angular velocity in the section's frame
+/// [rad/s^2].
+template <class T>
+struct NodeRates {
+  Vec3<T> v, omega;
+};
+
+/// Where the nodes and elements of the rods are in the chain.
+///
+/// Of one rod in two halves, the second runs backwards: an element seen from its other end has the
+/// same law with strains, offsets and stresses of opposite sign. With an odd number of elements the
+/// first half has a node before its first, which is nowhere and held.
+struct ChainLayout {
+  struct Place {
+    int entry, lane;
+  };
+
+  static ChainLayout Side(int elements) { return {elements, false}; }
+  static ChainLayout Halves(int elements) { return {elements, true}; }
+
+  ChainLayout(int rod_elements, bool in_halves)
+      : elements(rod_elements),
+        halves(in_halves),
+        padding(halves ? elements % 2 : 0),
+        chain_elements(halves ? (elements + 1) / 2 : elements),
+        middle(elements / 2) {}
+
+  /// Of a node of the rod that is alone, or in `lane`.
+  Place OfNode(int node, int lane) const {
+    if (!halves) return {node, lane};
+    return node <= middle ? Place{node + padding, 0} : Place{elements - node, 1};
+  }
+  /// Of the element after node `element`.
+  Place OfElement(int element, int lane) const {
+    if (!halves) return {element, lane};
+    return element < middle ? Place{element + padding, 0} : Place{elements - 1 - element, 1};
+  }
+  /// The node, and -1 for the one that is nowhere.
+  int NodeAt(int entry, int lane) const {
+    return halves ? (lane == 0 ? entry - padding : elements - entry) : entry;
+  }
+  /// The element after an entry, towards the chain's end; -1 for the one before the first.
+  int ElementAt(int entry, int lane) const {
+    return halves ? (lane == 0 ? entry - padding : elements - 1 - entry) : entry;
+  }
+
+  int elements;
+  bool halves;
+  int padding, chain_elements, middle;
+};
+
+template <class T>
+struct ChainNode {
+  Node<T> at;         // the iterate
+  NodeRates<T> rate;  // its true accelerations
+  Quat<T> q0;         // where it was before the step
+  Vec3<T> turn;       // its rotation in the step [rad]
+  T mass;             // lumped at the node [kg]
+  Vec3<T> inertia;    // about the section's axes [kg m^2]
+};
+
+template <class T>
+struct ChainStrain {
+  Vec3<T> u, u_rate, theta, theta_rate;  // as in ElementState
+};
+
+/// Squares of a correction's largest entries [m^2], [rad^2], and a sum that is finite only if all
+/// are.
+template <class T>
+struct ChainCorrection {
+  T translation, rotation, sum;
+};
+
+template <class T>
+struct StepChain {
+  explicit StepChain(const ChainLayout& where)
+      : layout(where),
+        nodes(layout.chain_elements + 1),
+        offsets(layout.chain_elements),
+        strains(layout.chain_elements),
+        factors(nodes.size()),
+        rhs(nodes.size()),
+        load_rhs(nodes.size()),
+        load_diagonal(nodes.size()),
+        load_lower(nodes.size()) {
+    if (layout.padding > 0) SetLane(&exists, 0, 0.0);
+  }
+
+  /// Which end nodes of the rods are held.
+  void SetHeld(bool a, bool b) {
+    const int end = layout.chain_elements;
+    first = end + 1;
+    last = -1;
+    mixed_below = 0;
+    for (int k = 0; k <= end; ++k) {
+      T free_lanes(0.0);
+      int free_count = 0;
+      for (int l = 0; l < kLaneCount<T>; ++l) {
+        const int i = layout.NodeAt(k, l);
+        if (i < 0 || (i == 0 && a) || (i == layout.elements && b)) continue;
+        SetLane(&free_lanes, l, 1.0);
+        ++free_count;
+      }
+      if (free_count == 0) continue;
+      first = std::min(first, k);
+      last = k;
+      if (free_count == kLaneCount<T>) continue;
+      free[k] = free_lanes;  // happens at a rod's ends only
+      mixed_below = k + 1;
+    }
+  }
+
+  ChainLayout layout;
+  int first = 0, last = -1;  // of the entries that are free in any lane
+  // Entries below this are held in some lanes, where `free` is 0, and free in others, where it
+  // is 1.
+  int mixed_below = 0;
+  T free[2] = {1.0, 1.0};
+  T exists = 1.0;   // 0 where the first element is nowhere
+  Vec3<T> gravity;  // [m/s^2]
+  ElementLaw<T> law;
+
+  std::vector<ChainNode<T>> nodes;
+  std::vector<ElementOffset<T>> offsets;
+  std::vector<ChainStrain<T>> strains;     // of the accepted iterate
+  Vec6<T> missing_first[2], missing_last;  // what its end nodes lack to balance
+
+  std::vector<NodeFactor<T>> factors;
+  std::vector<Vec6<T>> rhs;  // minus the residual, substituted forwards
+
+  // What loads add, where there are any: to the right-hand side, to the nodes' own blocks of the
+  // tangent, and to the symmetric block of two nodes' positions.
+  bool loaded = false;
+  std::vector<Vec6<T>> load_rhs;
+  std::vector<Triangle6<T>> load_diagonal;
+  std::vector<Mat3<T>> load_lower;
+
+  // Whether some element may be turned too far for the series of its functions.
+  bool careful = false;
+};
+
+}  // namespace cosserat_cable::rod
