@@ -13,6 +13,8 @@ using Eigen::Vector3d;
 
 constexpr double kWidth = 0.06;  // of the sheet, across the cable [m]
 constexpr double kStep = 4e-3;   // a way in one step [m]; a point may go its radius and a bit more
+constexpr double kLanding =
+    6.9e-3;  // the longest way that a step may take: 5 mm + 2 mm, and not all
 constexpr double kTouching = 4e-3;  // height of the centreline on the sheet [m]; the radius is 5 mm
 
 CableModel Cable() { return RoundCableModel(0.4, 0.01, 0.12, 0.035, 0.028, 1e-4); }
@@ -32,11 +34,22 @@ class Placed : public rod::Centreline {
   std::vector<Vector3d> nodes_;
 };
 
-/// A cable along x over a sheet in the plane z = 0, whose two halves are moved by hand.
+/// A sheet in the plane z = 0; with scraps far off above and below, so that no simple solid around
+/// the body tells that a point is away from the sheet.
+Body Sheet() {
+  TriangleMesh mesh = test::SheetMesh(1, kWidth, 4);
+  for (const double z : {-0.2, 0.2})
+    mesh = test::Joined(mesh, test::Moved(test::SheetMesh(0.02, kWidth, 1),
+                                          {{0.45, 0, z}, Eigen::Quaterniond::Identity()}));
+  return test::MakeBody(mesh);
+}
+
+/// A cable over a sheet in the plane z = 0, whose two halves are moved by hand. The left one lies
+/// along x. The right one is a steep zigzag, whose elements touch by their ends: only there does a
+/// bound by an element's middle let its ends come near without a look.
 class ContactSetTest : public ::testing::Test {
  protected:
-  ContactSetTest()
-      : sheet_(test::MakeBody(test::SheetMesh(1, kWidth, 4))), set_(Cable(), {&sheet_}) {
+  ContactSetTest() : sheet_(Sheet()), set_(Cable(), {&sheet_}) {
     Place({0, kTouching}, {0, kTouching});
   }
 
@@ -45,11 +58,11 @@ class ContactSetTest : public ::testing::Test {
     left_ = left;
     right_ = right;
     std::vector<Vector3d> nodes;
-    const int elements = Cable().elements;
-    for (int i = 0; i <= elements; ++i) {
-      const Eigen::Vector2d& yz = 2 * i <= elements ? left : right;
-      nodes.push_back({Cable().length * (static_cast<double>(i) / elements - 0.5), yz[0], yz[1]});
-    }
+    const int half = Cable().elements / 2;
+    const double h = Cable().length / Cable().elements;
+    for (int i = 0; i <= half; ++i) nodes.push_back({h * (i - half), left[0], left[1]});
+    for (int i = 1; i <= half; ++i)
+      nodes.push_back({0.1 * h * i, right[0], right[1] + (i % 2 ? zigzag_ : 0)});
     set_.Search(nodes, {Motion()});
     set_.Accept();
     points_ = set_.Points(Placed(nodes));
@@ -80,6 +93,7 @@ class ContactSetTest : public ::testing::Test {
   Body sheet_;
   ContactSet set_;
   Eigen::Vector2d left_, right_;
+  double zigzag_ = 9e-3;  // of the right half: the way that the other ends of its elements point
   std::vector<ContactPoint> points_;
 };
 
@@ -100,8 +114,11 @@ TEST_F(ContactSetTest, ElementsThatLeftAreAcceptedOnTheOtherSide) {
   EXPECT_EQ(SideOfHalf(true), 0);
   MoveRight({kWidth, 0.06});
   MoveRight({kWidth, -0.06});
+  zigzag_ = -zigzag_;
   MoveRight({0, -0.06});
-  MoveRight({0, -kTouching});
+  // The last step goes from where nothing is looked at to where the side must be known.
+  MoveRight({0, -kTouching - kLanding});
+  Place(left_, {0, -kTouching});
   EXPECT_EQ(SideOfHalf(true), -1);
   // The other half was near all the time.
   EXPECT_EQ(SideOfHalf(false), 1);
@@ -109,6 +126,7 @@ TEST_F(ContactSetTest, ElementsThatLeftAreAcceptedOnTheOtherSide) {
 
 TEST_F(ContactSetTest, ResetForgetsAllSides) {
   set_.Reset();
+  zigzag_ = -zigzag_;
   Place({0, -kTouching}, {0, -kTouching});
   EXPECT_EQ(SideOfHalf(false), -1);
   EXPECT_EQ(SideOfHalf(true), -1);
