@@ -78,6 +78,17 @@ V3 Rod::Impl::Offset(int element) const {
   return {shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0};
 }
 
+std::array<DynamicModulus, 6> Rod::Impl::Moduli() const {
+  const Section& s = model.section;
+  const auto kelvin_voigt = [](double C, double V) { return DynamicModulus{C, V, {}}; };
+  return {shear1.modulus(),
+          shear2.modulus(),
+          kelvin_voigt(s.C_F.z(), s.V_F.z()),
+          kelvin_voigt(s.C_M.x(), s.V_M.x()),
+          kelvin_voigt(s.C_M.y(), s.V_M.y()),
+          kelvin_voigt(s.C_M.z(), s.V_M.z())};
+}
+
 void Rod::Impl::HoldEnds(const Motion& a, const Motion& b) {
   if (model.held_a) Hold(a, w.node.front(), &w.trial.front(), &w.trial_rate.front());
   if (model.held_b) Hold(b, w.node.back(), &w.trial.back(), &w.trial_rate.back());

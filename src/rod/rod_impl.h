@@ -35,6 +35,8 @@ struct Rod::Impl {
   /// The section law over a step of `dt` [s], without the elements' offsets.
   ElementLaw<double> LawOfStep(double dt);
   V3 Offset(int element) const;
+  /// Of shear along a1 and a2, stretch, bending about a1 and a2, and twist.
+  std::array<DynamicModulus, 6> Moduli() const;
   /// The end nodes of the next iterate, where they are held.
   void HoldEnds(const Motion& a, const Motion& b);
 

@@ -36,6 +36,8 @@ struct SolveReport {
   double correction = 0;  ///< last Newton correction, relative to the length and in rad
 };
 
+struct Mode;  // modes.h
+
 /// Force and moment that a clamp exerts on the rod [N], [N m], world.
 struct Wrench {
   Eigen::Vector3d force, moment;
@@ -89,6 +91,7 @@ class Rod : public Centreline {
 
  private:
   friend class RodBatch;
+  friend std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
