@@ -194,6 +194,10 @@ std::vector<ContactPoint> CableSimulation::contacts() const {
   return impl_->contact.Points(impl_->rod);
 }
 
+std::vector<rod::Mode> CableSimulation::FindModes(int count) const {
+  return rod::FindModes(impl_->rod, count, impl_->load());
+}
+
 CableReport CableSimulation::Report() {
   Impl& m = *impl_;
   const double h = m.model.length / m.model.elements;

@@ -44,12 +44,4 @@ double MaxwellBranch::Energy(int element) const {
 
 double MaxwellBranch::DissipationRate(int element) const { return 2 * Energy(element) / tau_; }
 
-SectionBranch::ComplexValue MaxwellBranch::Modulus(std::complex<double> lambda) const {
-  const std::complex<double> share = lambda * tau_ / (1.0 + lambda * tau_);
-  ComplexValue modulus;
-  modulus.F.z() = share * stiffness_[0];
-  for (int k = 0; k < 3; ++k) modulus.M[k] = share * stiffness_[k + 1];
-  return modulus;
-}
-
 }  // namespace cosserat_cable::rod

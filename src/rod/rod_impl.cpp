@@ -93,6 +93,19 @@ ElementOffset<double> Rod::Impl::Offset(const ElementLaw<double>& law_of_step, i
   return offset;
 }
 
+std::array<DynamicModulus, 6> Rod::Impl::Moduli() const {
+  const Section& s = model.section;
+  const auto kelvin_voigt = [](double C, double V) { return DynamicModulus{C, V, {}}; };
+  std::array<DynamicModulus, 6> moduli = {shear1.modulus(),
+                                          shear2.modulus(),
+                                          kelvin_voigt(s.C_F.z(), s.V_F.z()),
+                                          kelvin_voigt(s.C_M.x(), s.V_M.x()),
+                                          kelvin_voigt(s.C_M.y(), s.V_M.y()),
+                                          kelvin_voigt(s.C_M.z(), s.V_M.z())};
+  branches.AddTo(&moduli);
+  return moduli;
+}
+
 ElementStrain Rod::Impl::StrainOf(const ElementStress& now) const {
   return {ToEigen(now.gamma) - model.section.gamma0, ToEigen(now.gamma_dot),
           ToEigen(now.kappa) - model.section.kappa0, ToEigen(now.kappa_dot)};

@@ -56,6 +56,8 @@ struct Rod::Impl {
   /// What internal variables and the unstressed curvature add to the stresses of an element in a
   /// step with this law.
   ElementOffset<double> Offset(const ElementLaw<double>& law_of_step, int element) const;
+  /// Of shear along a1 and a2, stretch, bending about a1 and a2, and twist.
+  std::array<DynamicModulus, 6> Moduli() const;
 
   /// Law, offsets and clamps of the step.
   void BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b);

@@ -1,10 +1,12 @@
 // The branches of one rod's section law, as a value: copying a rod copies their internal variables.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
 #include "cosserat_cable/rod/section_branch.h"
+#include "dynamic_modulus.h"
 
 namespace cosserat_cable::rod {
 
@@ -47,8 +49,22 @@ class SectionBranches {
     for (const auto& branch : branches_) rate += branch->DissipationRate(element);
     return rate;
   }
+  /// Adds to the moduli of shear along a1 and a2, stretch, bending about a1 and a2, and twist.
+  void AddTo(std::array<DynamicModulus, 6>* moduli) const {
+    const SectionValue more = StaticStiffness();
+    for (int k = 0; k < 6; ++k) (*moduli)[k].C += Component(more, k);
+    for (const auto& branch : branches_)
+      for (const SectionBranch::Relaxation& relaxation : branch->Relaxations())
+        for (int k = 0; k < 6; ++k)
+          if (const double G = Component(relaxation.stiffness, k); G != 0)
+            (*moduli)[k].branches.push_back({G, relaxation.rate});
+  }
 
  private:
+  static double Component(const SectionValue& value, int k) {
+    return k < 3 ? value.F[k] : value.M[k - 3];
+  }
+
   template <class... Arguments>
   SectionValue Sum(SectionValue (SectionBranch::*value)(Arguments...) const,
                    Arguments... arguments) const {

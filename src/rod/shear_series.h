@@ -15,6 +15,8 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamic_modulus.h"
+
 namespace cosserat_cable::rod {
 
 class ShearSeries {
@@ -50,6 +52,18 @@ class ShearSeries {
   }
 
   double static_stiffness() const { return GA_ * target_C_; }  ///< [N]
+
+  /// Q by Gamma for motion as exp(lambda t), (GA + lambda eta_GA)(B + lambda eta_B)/(GA + B +
+  /// lambda (eta_GA + eta_B)), in partial fractions.
+  DynamicModulus modulus() const {
+    DynamicModulus k;
+    k.C = static_stiffness();
+    if (std::isinf(lambda_)) return k;
+    k.V = viscous_ * target_V_;
+    k.branches = {
+        {GA_ * target_V_ * lambda_ + viscous_ * target_C_ - k.V * lambda_ - k.C, lambda_}};
+    return k;
+  }
 
   /// The law over one step of `dt` [s]: Q = offset + C Gamma + V dGamma/dt.
   void BeginStep(double dt) {

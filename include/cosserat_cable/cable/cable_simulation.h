@@ -11,6 +11,7 @@
 #include "cosserat_cable/cable/cable_model.h"
 #include "cosserat_cable/contact/body.h"
 #include "cosserat_cable/math/pose.h"
+#include "cosserat_cable/rod/modes.h"
 
 namespace cosserat_cable {
 
@@ -71,6 +72,9 @@ class CableSimulation {
   /// Magnitude of the bending curvature in each element [1/m], `elements` values.
   std::vector<double> curvatures() const;
   std::vector<ContactPoint> contacts() const;
+  /// Natural modes about the present configuration, where Settle has found it: clamps and bodies
+  /// stay, the latter push back where they are touched. See rod/modes.h, also for errors thrown.
+  std::vector<rod::Mode> FindModes(int count) const;
   /// Not const: it remembers distances, which makes the next report cheap.
   CableReport Report();
 

@@ -26,7 +26,7 @@ class MaxwellBranch : public SectionBranch {
   SectionValue StaticStiffness() const override { return {}; }
   double Energy(int element) const override;
   double DissipationRate(int element) const override;
-  ComplexValue Modulus(std::complex<double> lambda) const override;
+  std::vector<Relaxation> Relaxations() const override { return {{Spread(stiffness_), 1 / tau_}}; }
 
  private:
   // Extension, bending about a1 and a2, torsion.

@@ -44,6 +44,8 @@ struct SolveReport {
   double correction = 0;  ///< last Newton correction, relative to the length and in rad
 };
 
+struct Mode;  // modes.h
+
 /// Force and moment that a clamp, with its springs, exerts on the rod [N], [N m], world.
 struct Wrench {
   Eigen::Vector3d force, moment;
@@ -103,6 +105,7 @@ class Rod : public Centreline {
 
  private:
   friend class RodBatch;
+  friend std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <complex>
 #include <memory>
+#include <vector>
 
 namespace cosserat_cable::rod {
 
@@ -54,12 +54,13 @@ class SectionBranch {
   virtual double Energy(int element) const = 0;
   virtual double DissipationRate(int element) const = 0;
 
-  /// Dynamic modulus of small strains that go like exp(lambda t), lambda in 1/s.
-  struct ComplexValue {
-    Eigen::Vector3cd F = Eigen::Vector3cd::Zero();
-    Eigen::Vector3cd M = Eigen::Vector3cd::Zero();
+  /// What the branch adds to the dynamic modulus of small strains that vary as exp(lambda t),
+  /// beside the static stiffness: the sum of stiffness * lambda/(lambda + rate).
+  struct Relaxation {
+    SectionValue stiffness;  ///< [N], [N m^2]
+    double rate;             ///< [1/s]
   };
-  virtual ComplexValue Modulus(std::complex<double> lambda) const = 0;
+  virtual std::vector<Relaxation> Relaxations() const = 0;
 };
 
 }  // namespace cosserat_cable::rod

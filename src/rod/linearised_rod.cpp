@@ -1,0 +1,149 @@
+#include "linearised_rod.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "element.h"
+#include "lane_view.h"
+#include "step_kernels.h"
+
+namespace cosserat_cable::rod {
+namespace {
+
+using V3 = Vec3<double>;
+
+// Steps of the derivatives [rad] and [of the element length]: the fourth-order difference is then
+// exact to 1e-12.
+constexpr double kStep = 1e-3;
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+
+/// Derivatives of `f(first node, second node)`, a vector, by the displacements (world) and
+/// rotations (section frame) of an element's nodes: a column each.
+template <int kRows, class Function>
+Eigen::Matrix<double, kRows, 12> Derivatives(const Node<double>& a, const Node<double>& b, double h,
+                                             const Function& f) {
+  Eigen::Matrix<double, kRows, 12> derivatives;
+  for (int column = 0; column < 12; ++column) {
+    const bool turns = column % 6 >= 3;
+    const double step = turns ? kStep : kStep * h;
+    const auto at = [&](double by) -> Eigen::Matrix<double, kRows, 1> {
+      Node<double> nodes[2] = {a, b};
+      Node<double>& node = nodes[column / 6];
+      V3 d;
+      (column % 3 == 0 ? d.x : column % 3 == 1 ? d.y : d.z) = by;
+      if (turns)
+        node.q = node.q * Exp(d);
+      else
+        node.r += d;
+      return f(nodes[0], nodes[1]);
+    };
+    derivatives.col(column) =
+        (8 * (at(step) - at(-step)) - (at(2 * step) - at(-2 * step))) / (12 * step);
+  }
+  return derivatives;
+}
+
+/// What an element exerts under the force and moment of `stress`, wherever its nodes are.
+Vector12 ElementResidual(const Node<double>& a, const Node<double>& b,
+                         const ElementStress& stress) {
+  ElementState<double> state;
+  EvaluateStrain<double>(a, b, &state);
+  state.n = stress.n;
+  state.m = stress.m;
+  const ElementForces<double> forces = EvaluateForces(state);
+  Vector12 residual;
+  residual << -forces.f.x, -forces.f.y, -forces.f.z, forces.g1.x, forces.g1.y, forces.g1.z,
+      forces.f.x, forces.f.y, forces.f.z, forces.g2.x, forces.g2.y, forces.g2.z;
+  return residual;
+}
+
+/// Strains of an element, times its length.
+Eigen::Matrix<double, 6, 1> ElementStrains(const Node<double>& a, const Node<double>& b) {
+  ElementState<double> state;
+  EvaluateStrain<double>(a, b, &state);
+  Eigen::Matrix<double, 6, 1> strains;
+  strains << state.u.x, state.u.y, state.u.z, state.theta.x, state.theta.y, state.theta.z;
+  return strains;
+}
+
+void AddElement(int e, const Eigen::Matrix<double, 12, 12>& k, SymmetricBands* bands) {
+  bands->diagonal[e] += k.topLeftCorner<6, 6>();
+  bands->diagonal[e + 1] += k.bottomRightCorner<6, 6>();
+  bands->lower[e] += k.bottomLeftCorner<6, 6>();
+}
+
+/// The elements' tangent without moduli and stresses: what is left are the loads'.
+void ClearTangent(StepWorkspace<double>* w) {
+  for (int i = 0; i < w->count; ++i) {
+    for (auto& row : w->system.diagonal(i).m) std::fill(std::begin(row), std::end(row), 0.0);
+    if (i + 1 == w->count) break;
+    for (auto& row : w->system.lower(i).m) std::fill(std::begin(row), std::end(row), 0.0);
+  }
+}
+
+}  // namespace
+
+LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli_of,
+                             const EndParts& ends, const std::vector<bool>& held_of,
+                             const Load* load, StepWorkspace<double>* w)
+    : held(held_of),
+      mass(6 * w->count),
+      geometric(w->count),
+      load_damping(w->count),
+      moduli(moduli_of) {
+  for (int i = 0; i < w->count; ++i)
+    mass.segment<6>(6 * i) << w->mass[i], w->mass[i], w->mass[i], w->inertia[i].x, w->inertia[i].y,
+        w->inertia[i].z;
+
+  // Not AssembleTangent's, which serves Newton's iteration and has the second order in the
+  // elements' angles only: in a natural frequency its error would be seen (1e-3 at 40 elements).
+  EvaluateForces(w);
+  const double h = w->law.h;
+  material.assign(kComponents, SymmetricBands(w->count));
+  for (int e = 0; e + 1 < w->count; ++e) {
+    const Node<double>&a = w->trial[e], &b = w->trial[e + 1];
+    // How the forces turn with the nodes, at constant stress.
+    const ElementStress stress = w->chain.Stress(e, 0);
+    const Eigen::Matrix<double, 12, 12> turning = Derivatives<12>(
+        a, b, h,
+        [&](const auto& one, const auto& two) { return ElementResidual(one, two, stress); });
+    // The skew part adds up to the moments that a node lacks to balance: zero.
+    AddElement(e, 0.5 * (turning + turning.transpose()), &geometric);
+    const Eigen::Matrix<double, 6, 12> strains = Derivatives<6>(a, b, h, ElementStrains);
+    for (int i = 0; i < kComponents; ++i)
+      AddElement(e, moduli[i].C / h * strains.row(i).transpose() * strains.row(i), &material[i]);
+  }
+  if (load) {
+    const auto of_load = [&](double rate_factor) {
+      ClearTangent(w);
+      AddLoad(*load, 0, true, rate_factor, w);
+      return SymmetricBands::Of(&w->system, w->count);
+    };
+    const SymmetricBands at_rest = of_load(0.0);
+    load_damping = of_load(1.0).Add(-1, at_rest);
+    geometric.Add(1, at_rest);
+  }
+  ends.ForEachActive([&](const EndPart& end, bool at_b) {
+    const int i = at_b ? w->count - 1 : 0;
+    const Eigen::Matrix3d stiffness = end.SpringTangent(w->trial[i], 0.0);
+    geometric.diagonal[i].bottomRightCorner<3, 3>() += stiffness;
+    load_damping.diagonal[i].bottomRightCorner<3, 3>() +=
+        end.SpringTangent(w->trial[i], 1.0) - stiffness;
+  });
+  for (int k = 0; k < unknowns(); ++k) {
+    if (!held[k]) continue;
+    mass[k] = 0;
+    geometric.Clear(k);
+    load_damping.Clear(k);
+    for (SymmetricBands& stiffness : material) stiffness.Clear(k);
+  }
+}
+
+SymmetricBands LinearisedRod::Stiffness() const {
+  SymmetricBands sum = geometric;
+  for (const SymmetricBands& stiffness : material) sum.Add(1, stiffness);
+  return sum;
+}
+
+}  // namespace cosserat_cable::rod

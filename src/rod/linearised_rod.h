@@ -1,0 +1,40 @@
+// Small motion about an equilibrium: (lambda^2 M + K(lambda)) x = 0 for x exp(lambda t).
+//
+// K(lambda) = K_g + lambda D + sum_i k_i(lambda)/C_i K_i with the stiffness K_g of stresses and
+// loads, the damping D of loads, and for each of the six section components the stiffness K_i that
+// it has at rest and its dynamic modulus k_i. x: six unknowns per node, displacement in the world's
+// axes [m] and rotation in the section's [rad]; those that are held have rows and columns of zeros.
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "cosserat_cable/rod/load.h"
+#include "dynamic_modulus.h"
+#include "end_part.h"
+#include "step_workspace.h"
+#include "symmetric_bands.h"
+
+namespace cosserat_cable::rod {
+
+struct LinearisedRod {
+  enum Component { kShear1, kShear2, kStretch, kBend1, kBend2, kTwist, kComponents };
+
+  /// At the iterate of `w`, which is an equilibrium under its static law and `load`. `held`: by
+  /// unknown. Overwrites the law, the right-hand side and the system of `w`.
+  LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli, const EndParts& ends,
+                const std::vector<bool>& held, const Load* load, StepWorkspace<double>* w);
+
+  int unknowns() const { return static_cast<int>(held.size()); }
+  /// K(0).
+  SymmetricBands Stiffness() const;
+
+  std::vector<bool> held;
+  Eigen::VectorXd mass;  ///< M, diagonal [kg], [kg m^2]
+  SymmetricBands geometric, load_damping;
+  std::vector<SymmetricBands> material;  ///< K_i
+  std::array<DynamicModulus, kComponents> moduli;
+};
+
+}  // namespace cosserat_cable::rod
