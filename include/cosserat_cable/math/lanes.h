@@ -42,18 +42,6 @@ inline Lanes sqrt(const Lanes& a) {
   return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])};
 }
 
-// Through a type that may lie anywhere: GCC takes a copy of four doubles apart.
-typedef double UnalignedLanes
-    __attribute__((vector_size(8 * Lanes::kCount), aligned(alignof(double)), may_alias));
-inline Lanes LoadLanes(const double* from) {
-  Lanes lanes;
-  lanes.v = *reinterpret_cast<const UnalignedLanes*>(from);
-  return lanes;
-}
-inline void StoreLanes(const Lanes& lanes, double* to) {
-  *reinterpret_cast<UnalignedLanes*>(to) = lanes.v;
-}
-
 // What a template needs that treats one double as a single lane.
 
 template <class T>
