@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cosserat_cable/math/kernel.h"
-#include "cosserat_cable/math/lanes.h"
+#include "cosserat_cable/math/lane_rows.h"
 
 namespace cosserat_cable {
 namespace {

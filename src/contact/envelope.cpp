@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "cosserat_cable/math/kernel.h"
-#include "cosserat_cable/math/lanes.h"
+#include "cosserat_cable/math/lane_rows.h"
 
 namespace cosserat_cable {
 namespace {

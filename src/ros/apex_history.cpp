@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "cosserat_cable/math/kernel.h"
-#include "cosserat_cable/math/lanes.h"
+#include "cosserat_cable/math/lane_rows.h"
 
 namespace cosserat_cable {
 namespace {
@@ -25,9 +25,14 @@ void AddUp(const double* const* rows, std::size_t count, const double* origin, d
     add(LoadLanes(rows[0] + i) - Lanes(origin[0]), LoadLanes(rows[1] + i) - Lanes(origin[1]),
         LoadLanes(rows[2] + i) - Lanes(origin[2]));
   }
+  const auto alone = [](double value) {
+    Lanes lanes(0.0);
+    lanes.v[0] = value;
+    return lanes;
+  };
   for (; i < count; ++i) {
-    add(Lanes(rows[0][i] - origin[0], 0, 0, 0), Lanes(rows[1][i] - origin[1], 0, 0, 0),
-        Lanes(rows[2][i] - origin[2], 0, 0, 0));
+    add(alone(rows[0][i] - origin[0]), alone(rows[1][i] - origin[1]),
+        alone(rows[2][i] - origin[2]));
   }
   for (int k = 0; k < 9; ++k) sums[k] = lanes[k][0] + lanes[k][1] + lanes[k][2] + lanes[k][3];
 }

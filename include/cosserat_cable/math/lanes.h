@@ -71,18 +71,6 @@ using Lanes = BasicLanes<4>;
 /// The two halves of a cable.
 using LanePair = BasicLanes<2>;
 
-// Through a type that may lie anywhere: GCC takes a copy of four doubles apart.
-typedef double UnalignedLanes
-    __attribute__((vector_size(8 * Lanes::kCount), aligned(alignof(double)), may_alias));
-inline Lanes LoadLanes(const double* from) {
-  Lanes lanes;
-  lanes.v = *reinterpret_cast<const UnalignedLanes*>(from);
-  return lanes;
-}
-inline void StoreLanes(const Lanes& lanes, double* to) {
-  *reinterpret_cast<UnalignedLanes*>(to) = lanes.v;
-}
-
 // What a template needs that treats one double as a single lane.
 
 template <class T>

@@ -24,7 +24,7 @@ class ApexHistory {
   std::int64_t window_;
   std::vector<std::int64_t> times_;
   std::array<std::vector<double>, 3> positions_;  // by coordinate
-  std::size_t first_ = 0;  // of the window
+  std::size_t first_ = 0;                         // of the window
 };
 
 }  // namespace cosserat_cable
