@@ -276,8 +276,8 @@ class RootSearch {
     const auto second =
         std::max_element(found.begin(), found.end(),
                          [](const Root& a, const Root& b) { return a.after_blow < b.after_blow; });
-    if (second == found.end()) return false;
-    roots->second = second->lambda;
+    // At critical damping the two are one.
+    roots->second = second == found.end() ? roots->lambda : second->lambda;
     if (std::abs(roots->second) < std::abs(roots->lambda)) std::swap(roots->lambda, roots->second);
     return true;
   }
