@@ -51,6 +51,7 @@ SolveReport Rod::Step(double dt, const Motion& a, const Motion& b, const Load* l
   if (!m.pair.chain) {
     m.pair.chain = std::make_unique<StepChain<LanePair>>(ChainLayout::Halves(m.model.elements));
     m.pair.chain->SetHeld(m.model.held_a, m.model.held_b);
+    m.FillMasses(0, m.pair.chain->layout, &m.pair.chain->masses);
   }
   StepChain<LanePair>& chain = *m.pair.chain;
   const StepCoefficients c(dt);

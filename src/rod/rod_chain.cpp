@@ -8,8 +8,25 @@ namespace cosserat_cable::rod {
 
 void Rod::Impl::BeginStep(double dt, const Motion& a, const Motion& b) {
   next_law_ = LawOfStep(dt);
-  for (int e = 0; e < model.elements; ++e) next_offsets_[e] = Offset(e);
+  const V3 unbend = MomentOfUnstressedCurvature();
+  for (int e = 0; e < model.elements; ++e)
+    next_offsets_[e] = {{shear1.Offset(shear[e][0]), shear2.Offset(shear[e][1]), 0.0}, unbend};
   HoldEnds(a, b);
+}
+
+template <class T>
+void Rod::Impl::FillMasses(int rod_lane, const ChainLayout& layout,
+                           std::vector<NodeMass<T>>* masses) const {
+  const int end = layout.chain_elements;
+  for (int lane = 0; lane < kLaneCount<T>; ++lane) {
+    if (!layout.halves && lane != rod_lane) continue;
+    for (int k = 0; k <= end; ++k) {
+      const int i = std::max(0, layout.NodeAt(k, lane));
+      const double share = layout.halves && k == end ? 0.5 : 1.0;  // both halves have the middle
+      SetLane(&(*masses)[k].mass, lane, share * w.mass[i]);
+      SetLane(&(*masses)[k].inertia, lane, share * w.inertia[i]);
+    }
+  }
 }
 
 template <class T>
@@ -22,12 +39,7 @@ void Rod::Impl::FillChain(int rod_lane, StepChain<T>* chain) const {
     SetLane(&chain->gravity, lane, w.gravity);
     SetLane(&chain->law, lane, next_law_);
     if (backwards) SetLane(&chain->law.gamma0, lane, -next_law_.gamma0);
-    for (int k = 0; k <= end; ++k) {
-      const int i = std::max(0, layout.NodeAt(k, lane));
-      const double share = layout.halves && k == end ? 0.5 : 1.0;  // both halves have the middle
-      SetLane(&chain->nodes[k].mass, lane, share * w.mass[i]);
-      SetLane(&chain->nodes[k].inertia, lane, share * w.inertia[i]);
-    }
+
     for (int k = 0; k < end; ++k) {
       const ElementOffset<double>& offset = next_offsets_[std::max(0, layout.ElementAt(k, lane))];
       SetLane(&chain->offsets[k].F, lane, backwards ? -offset.F : offset.F);
@@ -87,6 +99,9 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   stress_known_ = false;
 }
 
+template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<Lanes>>*) const;
+template void Rod::Impl::FillMasses(int, const ChainLayout&,
+                                    std::vector<NodeMass<LanePair>>*) const;
 template void Rod::Impl::FillChain(int, StepChain<Lanes>*) const;
 template void Rod::Impl::FillChain(int, StepChain<LanePair>*) const;
 template void Rod::Impl::HoldInChain(int, StepChain<Lanes>*) const;

@@ -79,11 +79,6 @@ V3 Rod::Impl::MomentOfUnstressedCurvature() const {
   return -Scale(ToSmall(model.section.C_M), ToSmall(model.section.kappa0));
 }
 
-ElementOffset<double> Rod::Impl::Offset(int element) const {
-  return {{shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0},
-          MomentOfUnstressedCurvature()};
-}
-
 void Rod::Impl::HoldEnds(const Motion& a, const Motion& b) {
   if (model.held_a) Hold(a, w.node.front(), &w.trial.front(), &w.trial_rate.front());
   if (model.held_b) Hold(b, w.node.back(), &w.trial.back(), &w.trial_rate.back());

@@ -48,16 +48,16 @@ struct Rod::Impl {
   ElementLaw<double> LawOfStep(double dt);
   /// -C_M K0 [N m], which the moment of every element has besides C_M K.
   V3 MomentOfUnstressedCurvature() const;
-  /// What internal variables and the unstressed curvature add to the stresses of an element in a
-  /// step.
-  ElementOffset<double> Offset(int element) const;
+
   /// The end nodes of the next iterate, where they are held.
   void HoldEnds(const Motion& a, const Motion& b);
 
   /// Law, offsets and held ends of the step.
   void BeginStep(double dt, const Motion& a, const Motion& b);
   RodState State() { return {w.node.data(), w.rate.data(), w.algorithm.data()}; }
-  /// What a chain needs of the rod besides its state, into a lane, or into both halves.
+  template <class T>
+  void FillMasses(int lane, const ChainLayout& layout, std::vector<NodeMass<T>>* masses) const;
+  /// What a chain needs of the rod in a step besides its state, into a lane, or into both halves.
   template <class T>
   void FillChain(int lane, StepChain<T>* chain) const;
   /// The held ends into the chain's first iterate.
