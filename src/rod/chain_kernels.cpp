@@ -399,6 +399,15 @@ bool EvaluateAcceptedOf(StepChain<T>* chain) {
     }
     w.missing_last = OwnForces(w, e + 1);
     Subtract(OnSecond(forces), &w.missing_last);
+    if (e == 0 && elements == padding) {
+      // One element: its first node is where the halves meet, and has nothing from the one nowhere.
+      w.missing_first[1] = OwnForces(w, 1);
+      for (int k = 0; k < 6; ++k) {
+        T sum = w.missing_first[1][k] - w.exists * OnSecond(forces)[k];
+        Join(&sum);
+        w.missing_first[1][k] = sum;
+      }
+    }
   }
   if (!w.careful && AnyAtLeast(largest, kArcTangentSeriesBelow)) {
     w.careful = true;

@@ -83,16 +83,21 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
       missing_b[k] += GetLane(chain.load_rhs[back.entry][k], back.lane);
     }
   const double one_over_h = 1 / h;
-  for (int e = 0; e < model.elements; ++e) {
-    const ChainLayout::Place at = layout.OfElement(e, rod_lane);
-    const ElementStrain<T>& strain = chain.strains[at.entry];
-    const double per_length = layout.halves && at.lane == 1 ? -one_over_h : one_over_h;
-    const double u1 = GetLane(strain.u.x, at.lane), u2 = GetLane(strain.u.y, at.lane);
-    const double rate1 = GetLane(strain.u_rate.x, at.lane);
-    const double rate2 = GetLane(strain.u_rate.y, at.lane);
-    shear[e] = {
-        shear1.Commit(shear[e][0], per_length * u1 - next_law_.gamma0.x, per_length * rate1),
-        shear2.Commit(shear[e][1], per_length * u2 - next_law_.gamma0.y, per_length * rate2)};
+  const V3 gamma0 = next_law_.gamma0;
+  const ShearSeries series1 = shear1, series2 = shear2;  // nothing written below is part of them
+  for (int lane = 0; lane < kLaneCount<T>; ++lane) {
+    if (!layout.halves && lane != rod_lane) continue;
+    const bool backwards = layout.halves && lane == 1;
+    const double per_length = backwards ? -one_over_h : one_over_h;
+    const int padding = lane == 0 ? layout.padding : 0;
+    for (int k = padding; k < layout.chain_elements; ++k) {
+      const ElementStrain<T>& strain = chain.strains[k];
+      ShearHistory& history = shear[layout.ElementAt(k, lane)];
+      history = {series1.Commit(history[0], per_length * GetLane(strain.u.x, lane) - gamma0.x,
+                                per_length * GetLane(strain.u_rate.x, lane)),
+                 series2.Commit(history[1], per_length * GetLane(strain.u.y, lane) - gamma0.y,
+                                per_length * GetLane(strain.u_rate.y, lane))};
+    }
   }
   law = next_law_;
   std::swap(offsets, next_offsets_);
