@@ -70,9 +70,10 @@ void AddEnds(const StepCoefficients& c, const EndParts& ends, int lane, bool tan
       const Vec3<double> sum = C + c.velocity_by_increment * V;
       return std::max(sum.x, std::max(sum.y, sum.z));
     };
-    const Vec3<double> inertia = GetLane(entry.inertia, at.lane);
+    const Vec3<double> inertia = GetLane(chain->masses[at.entry].inertia, at.lane);
     const double force = largest(C_F, V_F);
-    const double stiff_r = force / h + c.rate_by_increment * GetLane(entry.mass, at.lane);
+    const double stiff_r =
+        force / h + c.rate_by_increment * GetLane(chain->masses[at.entry].mass, at.lane);
     const double stiff_phi =
         largest(C_M, V_M) / h + force * h +
         c.rate_by_increment * std::max(inertia.x, std::max(inertia.y, inertia.z));

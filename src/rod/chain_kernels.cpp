@@ -136,13 +136,16 @@ void PredictOf(const StepCoefficients& c, const RodState* rods, StepChain<BasicL
     GatherRecord<N>(rate, &rate0);
     GatherRecord<N>(algorithm, &a0);
     ChainNode<T>& to = w->nodes[k];
+    NodeRates<T>& past = w->past[k];
     to.q0 = from.q;
     to.turn = c.dt * from.omega;
     to.at.r = from.r + c.dt * from.v;
     to.at.v = from.v + c.coasting_velocity * a0.v;
     to.at.omega = from.omega + c.coasting_velocity * a0.omega;
-    to.rate.v = c.coasting_rate * a0.v + c.old_rate * rate0.v;
-    to.rate.omega = c.coasting_rate * a0.omega + c.old_rate * rate0.omega;
+    past.v = c.old_algorithm * a0.v + c.old_rate * rate0.v;
+    past.omega = c.old_algorithm * a0.omega + c.old_rate * rate0.omega;
+    to.rate.v = past.v + c.coasting_rate * a0.v;
+    to.rate.omega = past.omega + c.coasting_rate * a0.omega;
     largest = Max(largest, TurnNode(&to));
   }
   if (AnyAtLeast(largest, kExpSeriesBelow)) CorrectTurns(w);
@@ -153,10 +156,12 @@ void PredictOf(const StepCoefficients& c, const RodState* rods, StepChain<BasicL
 
 /// Gravity and inertia.
 template <class T>
-Vec6<T> OwnForces(const ChainNode<T>& node, const Vec3<T>& gravity) {
-  const Vec3<T> f = node.mass * (gravity - node.rate.v);
+Vec6<T> OwnForces(const StepChain<T>& w, int k) {
+  const ChainNode<T>& node = w.nodes[k];
+  const NodeMass<T>& lump = w.masses[k];
+  const Vec3<T> f = lump.mass * (w.gravity - node.rate.v);
   const Vec3<T>& omega = node.at.omega;
-  const Vec3<T> g = Scale(node.inertia, node.rate.omega) + Cross(omega, Scale(node.inertia, omega));
+  const Vec3<T> g = Scale(lump.inertia, node.rate.omega) + Cross(omega, Scale(lump.inertia, omega));
   return {{f.x, f.y, f.z, -g.x, -g.y, -g.z}};
 }
 
@@ -188,19 +193,17 @@ void AddToFirst(const ElementTangent<T>& k, Triangle6<T>* s) {
   }
 }
 template <class T>
-Triangle6<T> AtSecond(const ElementTangent<T>& k) {
-  Triangle6<T> s;
+void SetAtSecond(const ElementTangent<T>& k, Triangle6<T>* s) {
 #pragma GCC unroll 3
   for (int r = 0; r < 3; ++r) {
 #pragma GCC unroll 3
     for (int c = 0; c <= r; ++c) {
-      s.at(r, c) = k.rr[r][c];
-      s.at(3 + r, 3 + c) = k.t22[r][c];
+      s->at(r, c) = k.rr[r][c];
+      s->at(3 + r, 3 + c) = k.t22[r][c];
     }
 #pragma GCC unroll 3
-    for (int c = 0; c < 3; ++c) s.at(3 + r, c) = k.r2[c][r];
+    for (int c = 0; c < 3; ++c) s->at(3 + r, c) = k.r2[c][r];
   }
-  return s;
 }
 /// Transpose of the block that couples the second node to the first.
 template <class T>
@@ -217,14 +220,14 @@ void Coupling(const ElementTangent<T>& k, T w[6][6]) {
 }
 
 template <class T>
-void AddInertia(const StepCoefficients& c, const ChainNode<T>& node, Triangle6<T>* s) {
-  const T m = c.rate_by_increment * node.mass;
+void AddInertia(const StepCoefficients& c, const NodeMass<T>& lump, Triangle6<T>* s) {
+  const T m = c.rate_by_increment * lump.mass;
   s->at(0, 0) += m;
   s->at(1, 1) += m;
   s->at(2, 2) += m;
-  s->at(3, 3) += c.rate_by_increment * node.inertia.x;
-  s->at(4, 4) += c.rate_by_increment * node.inertia.y;
-  s->at(5, 5) += c.rate_by_increment * node.inertia.z;
+  s->at(3, 3) += c.rate_by_increment * lump.inertia.x;
+  s->at(4, 4) += c.rate_by_increment * lump.inertia.y;
+  s->at(5, 5) += c.rate_by_increment * lump.inertia.z;
 }
 
 /// Sums the two halves in their common node.
@@ -255,19 +258,19 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
   const ScaledLaw<T> law(w.law);
   const TangentLaw<T> moduli(w.law.h, w.law.C_F + c.velocity_by_increment * w.law.V_F,
                              w.law.C_M + c.velocity_by_increment * w.law.V_M);
-  const Vec3<T> gravity = w.gravity;
+
   T largest(0.0), pivot = *smallest;
-  Vec6<T> b = OwnForces(w.nodes[0], gravity);
-  Triangle6<T> s;
-  for (T& x : s.v) x = T(0.0);
-  AddInertia(c, w.nodes[0], &s);
+  Vec6<T> b = OwnForces(w, 0);
+  Triangle6<T> blocks[2];  // the current node's and the next one's, in turn
+  for (T& x : blocks[0].v) x = T(0.0);
+  AddInertia(c, w.masses[0], &blocks[0]);
 
   for (int e = 0; e < elements; ++e) {
     ElementState<T> state = StateOf(w, e, &largest);
     EvaluateStress(law, w.offsets[e], &state);
     const ElementForces<T> forces = EvaluateForces(state);
     SubtractFromFirst(forces, &b);
-    Vec6<T> b_next = OwnForces(w.nodes[e + 1], gravity);
+    Vec6<T> b_next = OwnForces(w, e + 1);
     const Vec6<T> on_second = OnSecond(forces);
     const bool nowhere = e < w.layout.padding;
 #pragma GCC unroll 6
@@ -276,11 +279,12 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
     NodeFactor<T>& factor = w.factors[e];
     if (fresh) {
       const ElementTangent<T> tangent = EvaluateTangent(state, moduli);
+      Triangle6<T>&s = blocks[e % 2], &next = blocks[(e + 1) % 2];
       AddToFirst(tangent, &s);
-      Triangle6<T> next = AtSecond(tangent);
+      SetAtSecond(tangent, &next);
       if (nowhere)
         for (T& x : next.v) x = w.exists * x;
-      AddInertia(c, w.nodes[e + 1], &next);
+      AddInertia(c, w.masses[e + 1], &next);
       if (e >= first) {
         T coupling[6][6];
         Coupling(tangent, coupling);
@@ -290,7 +294,7 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
             for (int j = 0; j < 3; ++j) coupling[i][j] += w.load_lower[e][i][j];
         }
         T lowest = pivot;
-        FactoriseNode(&s, &factor, &lowest);
+        FactoriseNode(s, &factor, &lowest);
         if (e < w.mixed_below) {  // where a node is held, it takes nothing and does not move
           const T& free = w.free[e];
           for (T& x : factor.inverse) x = free * x;
@@ -299,13 +303,11 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
         pivot = lowest;
         CoupleNode(coupling, &factor, &next);
       }
-      s = next;
     }
     if (e >= first) {
       if (w.loaded)
         for (int k = 0; k < 6; ++k) b[k] += w.load_rhs[e][k];
-      SubstituteNode(factor, &b);
-      CarryToNext(factor, b, &b_next);
+      SubstituteNode(factor, &b, &b_next);
       w.rhs[e] = b;
     }
     b = b_next;
@@ -316,14 +318,16 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
       for (int k = 0; k < 6; ++k) b[k] += w.load_rhs[last][k];
     for (int k = 0; k < 6; ++k) Join(&b[k]);
     if (fresh) {
+      Triangle6<T>& s = blocks[last % 2];
       if (w.loaded)
         for (int k = 0; k < 21; ++k) s.v[k] += w.load_diagonal[last].v[k];
       for (T& x : s.v) Join(&x);
-      FactoriseNode(&s, &factor, &pivot);
+      FactoriseNode(s, &factor, &pivot);
       for (auto& row : factor.gain)
         for (T& x : row) x = T(0.0);
     }
-    SubstituteNode(factor, &b);
+    Vec6<T> nobody = b;
+    SubstituteNode(factor, &b, &nobody);
     w.rhs[last] = b;
   }
   if (!w.careful && AnyAtLeast(largest, kArcTangentSeriesBelow)) {
@@ -382,24 +386,37 @@ bool EvaluateAcceptedOf(StepChain<T>* chain) {
   StepChain<T>& w = *chain;
   const int elements = w.layout.chain_elements, padding = w.layout.padding;
   const ScaledLaw<T> law(w.law);
-  T largest(0.0);
+  T largest(0.0), dissipation(0.0);
   for (int e = 0; e < elements; ++e) {
     ElementState<T> state = StateOf(w, e, &largest);
     w.strains[e] = {state.u, state.u_rate, state.theta, state.theta_rate};
+    const T lost = law.V_F.z * state.u_rate.z * state.u_rate.z +
+                   Dot(Scale(law.V_M, state.theta_rate), state.theta_rate);
+    dissipation += e < padding ? w.exists * lost : lost;
     if (e > padding && e < elements - 1) continue;
     EvaluateStress(law, w.offsets[e], &state);
     const ElementForces<T> forces = EvaluateForces(state);
     if (e <= padding) {
-      w.missing_first[e] = OwnForces(w.nodes[e], w.gravity);
+      w.missing_first[e] = OwnForces(w, e);
       SubtractFromFirst(forces, &w.missing_first[e]);
     }
-    w.missing_last = OwnForces(w.nodes[e + 1], w.gravity);
+    w.missing_last = OwnForces(w, e + 1);
     Subtract(OnSecond(forces), &w.missing_last);
+    if (e == 0 && elements == padding) {
+      // One element: its first node is where the halves meet, and has nothing from the one nowhere.
+      w.missing_first[1] = OwnForces(w, 1);
+      for (int k = 0; k < 6; ++k) {
+        T sum = w.missing_first[1][k] - w.exists * OnSecond(forces)[k];
+        Join(&sum);
+        w.missing_first[1][k] = sum;
+      }
+    }
   }
   if (!w.careful && AnyAtLeast(largest, kArcTangentSeriesBelow)) {
     w.careful = true;
     return false;
   }
+  w.dissipation = dissipation;
   return true;
 }
 
@@ -430,12 +447,9 @@ void AcceptOf(const StepCoefficients& c, const StepChain<BasicLanes<N>>& w,
       algorithm[l] = wanted ? rods[l]->algorithm + i : &no_rates[l];
     }
     const ChainNode<T>& from = w.nodes[k];
-    NodeRates<T> a, rate0;
-    GatherRecord<N>(algorithm, &a);
-    GatherRecord<N>(rate, &rate0);
-    a.v = c.algorithm_by_rate * (from.rate.v - c.old_algorithm * a.v - c.old_rate * rate0.v);
-    a.omega = c.algorithm_by_rate *
-              (from.rate.omega - c.old_algorithm * a.omega - c.old_rate * rate0.omega);
+    const NodeRates<T>& past = w.past[k];
+    const NodeRates<T> a{c.algorithm_by_rate * (from.rate.v - past.v),
+                         c.algorithm_by_rate * (from.rate.omega - past.omega)};
     ScatterRecord<N>(a, algorithm);
     ScatterRecord<N>(from.rate, rate);
     Node<T> to = from.at;

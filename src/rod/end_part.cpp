@@ -26,21 +26,20 @@ EndPart::EndPart(const EndModel& model)
     : model_(model),
       holds_(Any(model.translation) || Any(model.rotation)),
       holds_rotation_(Any(model.rotation)),
-      sprung_(model.stiffness.any() || model.damping.any()) {
+      sprung_(model.stiffness.any() || model.damping.any()),
+      active_(!model.clamped() && bears()) {
   // What is held needs no spring.
   for (int k = 0; k < 3; ++k)
     if (model.rotation[k]) model_.stiffness[k] = model_.damping[k] = 0;
 }
 
 EndPart::Relative EndPart::Compare(const Node<double>& node) const {
+  const Motion& C = clamp();
   Relative of;
-  of.R_WC = clamp().X.q.toRotationMatrix();
-  of.d_W = ToEigen(node.r) - clamp().X.p;
-  of.omega_W = of.R_WC * clamp().omega;
-  const Eigen::Quaterniond q_CS = clamp().X.q.conjugate() * ToEigen(node.q);
+  of.R_WC = C.X.q.toRotationMatrix();
+  const Eigen::Quaterniond q_CS = C.X.q.conjugate() * ToEigen(node.q);
   of.psi = RotationLog(q_CS);
-  of.omega_C_S = q_CS.conjugate() * clamp().omega;
-  of.psi_dot = RightJacobianInverse(of.psi) * (ToEigen(node.omega) - of.omega_C_S);
+  of.psi_dot = RightJacobianInverse(of.psi) * (ToEigen(node.omega) - q_CS.conjugate() * C.omega);
   return of;
 }
 
@@ -52,7 +51,8 @@ void EndPart::ImposePose(Node<double>* node) const {
   if (All(model_.translation)) d.setZero();
   node->r = ToSmall(clamp().X.p + d);
   if (!holds_rotation_) return;
-  Vector3d psi = RotationLog(clamp().X.q.conjugate() * ToEigen(node->q));
+  Vector3d psi = Vector3d::Zero();
+  if (!All(model_.rotation)) psi = RotationLog(clamp().X.q.conjugate() * ToEigen(node->q));
   for (int k = 0; k < 3; ++k)
     if (model_.rotation[k]) psi[k] = 0;
   Quat<double> q = ToSmall((clamp().X.q * RotationExp(psi)).normalized());
@@ -111,9 +111,9 @@ EndPart::Matrix6 EndPart::FreeProjector(const Node<double>& node) const {
 
 double EndPart::Power(const Node<double>& node, const Vec3<double>& force,
                       const Vec3<double>& moment) const {
-  const Relative of = Compare(node);
-  return ToEigen(force).dot(clamp().v + of.omega_W.cross(of.d_W)) +
-         ToEigen(moment).dot(of.omega_C_S);
+  const Motion& C = clamp();
+  const Vector3d d = ToEigen(node.r) - C.X.p, omega = C.X.q * C.omega;
+  return ToEigen(force).dot(C.v + omega.cross(d)) + (ToEigen(node.q) * ToEigen(moment)).dot(omega);
 }
 
 }  // namespace cosserat_cable::rod

@@ -23,7 +23,7 @@ class EndPart {
   /// Whether the clamp exerts anything.
   bool bears() const { return holds_ || sprung_; }
   /// Whether the node is an unknown on which this end bears.
-  bool active() const { return !model_.clamped() && bears(); }
+  bool active() const { return active_; }
 
   const Motion& clamp() const { return clamp_.motion(); }
   void Start(const Motion& clamp) { clamp_.Start(clamp); }
@@ -52,16 +52,13 @@ class EndPart {
   /// The node's section as seen from the clamp.
   struct Relative {
     Eigen::Matrix3d R_WC;
-    Eigen::Vector3d d_W;        // from the clamp's origin [m]
-    Eigen::Vector3d omega_W;    // of the clamp [rad/s]
-    Eigen::Vector3d psi;        // [rad]
-    Eigen::Vector3d omega_C_S;  // the clamp's angular velocity, section frame [rad/s]
-    Eigen::Vector3d psi_dot;    // [rad/s]
+    Eigen::Vector3d psi;      // [rad]
+    Eigen::Vector3d psi_dot;  // [rad/s]
   };
   Relative Compare(const Node<double>& node) const;
 
   EndModel model_;
-  bool holds_, holds_rotation_, sprung_;
+  bool holds_, holds_rotation_, sprung_, active_;
   PrescribedMotion clamp_;
 };
 

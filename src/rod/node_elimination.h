@@ -26,64 +26,74 @@ struct NodeFactor {
   const T& u(int row, int column) const { return unit[row * (row - 1) / 2 + column]; }
 };
 
-/// Factorises `s`, which it overwrites; lowers `smallest` to the smallest pivot.
+// Everything is computed in local copies and stored once: the compiler cannot know that what is
+// read and what is written do not overlap.
+
+/// Factorises `s`; lowers `smallest` to the smallest pivot.
 template <class T>
-void FactoriseNode(Triangle6<T>* s, NodeFactor<T>* f, T* smallest) {
+void FactoriseNode(const Triangle6<T>& s, NodeFactor<T>* f, T* smallest) {
+  Triangle6<T> a = s;
+  T lowest = *smallest;
 #pragma GCC unroll 6
   for (int k = 0; k < 6; ++k) {
-    const T pivot = s->at(k, k), one_over = T(1) / pivot;
-    *smallest = Min(*smallest, pivot);
+    const T pivot = a.at(k, k), one_over = T(1) / pivot;
+    lowest = Min(lowest, pivot);
     f->inverse[k] = one_over;
 #pragma GCC unroll 6
     for (int r = k + 1; r < 6; ++r) {
-      const T factor = s->at(r, k) * one_over;
+      const T factor = a.at(r, k) * one_over;
 #pragma GCC unroll 6
-      for (int c = k + 1; c <= r; ++c) s->at(r, c) -= factor * s->at(c, k);
+      for (int c = k + 1; c <= r; ++c) a.at(r, c) -= factor * a.at(c, k);
       f->unit[r * (r - 1) / 2 + k] = factor;
     }
   }
+  *smallest = lowest;
 }
 
-/// From `w` = L^T, which it overwrites: the gain, and the next node's block less what the
-/// elimination takes from it.
+/// From `coupling` = L^T: the gain, and the next node's block less what the elimination takes from
+/// it.
 template <class T>
-void CoupleNode(T w[6][6], NodeFactor<T>* f, Triangle6<T>* next) {
+void CoupleNode(const T coupling[6][6], NodeFactor<T>* f, Triangle6<T>* next) {
+  T w[6][6];  // U^{-1} L^T, by columns
 #pragma GCC unroll 6
   for (int r = 0; r < 6; ++r) {
+    T column[6], gain[6];
 #pragma GCC unroll 6
-    for (int k = 0; k < r; ++k)
+    for (int k = 0; k < 6; ++k) {
+      T x = coupling[k][r];
 #pragma GCC unroll 6
-      for (int c = 0; c < 6; ++c) w[r][c] -= f->u(r, k) * w[k][c];
+      for (int j = 0; j < k; ++j) x -= f->u(k, j) * column[j];
+      column[k] = x;
+      gain[k] = f->inverse[k] * x;
+    }
 #pragma GCC unroll 6
-    for (int c = 0; c < 6; ++c) f->gain[r][c] = f->inverse[r] * w[r][c];
-  }
-#pragma GCC unroll 6
-  for (int r = 0; r < 6; ++r)
+    for (int k = 0; k < 6; ++k) {
+      w[r][k] = column[k];
+      f->gain[k][r] = gain[k];
+    }
 #pragma GCC unroll 6
     for (int c = 0; c <= r; ++c) {
       T sum = next->at(r, c);
 #pragma GCC unroll 6
-      for (int k = 0; k < 6; ++k) sum -= f->gain[k][r] * w[k][c];
+      for (int k = 0; k < 6; ++k) sum -= gain[k] * w[c][k];
       next->at(r, c) = sum;
     }
+  }
 }
 
-/// Forward substitution within a node.
+/// Forward substitution within a node, and what it takes from the next node's right-hand side.
 template <class T>
-void SubstituteNode(const NodeFactor<T>& f, Vec6<T>* b) {
+void SubstituteNode(const NodeFactor<T>& f, Vec6<T>* rhs, Vec6<T>* next_rhs) {
+  Vec6<T> b = *rhs, next = *next_rhs;
 #pragma GCC unroll 6
-  for (int c = 0; c < 5; ++c)
+  for (int k = 0; k < 6; ++k) {
 #pragma GCC unroll 6
-    for (int r = c + 1; r < 6; ++r) (*b)[r] -= f.u(r, c) * (*b)[c];
-}
-
-/// And what it takes from the next node's right-hand side.
-template <class T>
-void CarryToNext(const NodeFactor<T>& f, const Vec6<T>& b, Vec6<T>* next) {
+    for (int r = k + 1; r < 6; ++r) b[r] -= f.u(r, k) * b[k];
 #pragma GCC unroll 6
-  for (int k = 0; k < 6; ++k)
-#pragma GCC unroll 6
-    for (int c = 0; c < 6; ++c) (*next)[c] -= f.gain[k][c] * b[k];
+    for (int c = 0; c < 6; ++c) next[c] -= f.gain[k][c] * b[k];
+  }
+  *rhs = b;
+  *next_rhs = next;
 }
 
 /// Solution at a node from its substituted right-hand side and the next node's solution.

@@ -44,7 +44,8 @@ class PrescribedMotion {
                       Eigen::Vector3d* next_rate) {
     const Eigen::Vector3d beyond = increment - c.dt * velocity;
     *next_velocity = velocity + c.coasting_velocity * *algorithm + c.velocity_by_increment * beyond;
-    *next_rate = c.coasting_rate * *algorithm + c.old_rate * rate + c.rate_by_increment * beyond;
+    *next_rate = (c.coasting_rate + c.old_algorithm) * *algorithm + c.old_rate * rate +
+                 c.rate_by_increment * beyond;
     *algorithm =
         c.algorithm_by_rate * (*next_rate - c.old_algorithm * *algorithm - c.old_rate * rate);
   }

@@ -78,6 +78,7 @@ SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load)
   if (!m.pair.chain) {
     m.pair.chain = std::make_unique<StepChain<LanePair>>(ChainLayout::Halves(m.model.elements));
     m.pair.chain->SetHeld(m.model.a.clamped(), m.model.b.clamped());
+    m.FillMasses(0, m.pair.chain->layout, &m.pair.chain->masses);
   }
   StepChain<LanePair>& chain = *m.pair.chain;
   const StepCoefficients c(dt);

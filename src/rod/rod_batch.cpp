@@ -8,7 +8,9 @@
 namespace cosserat_cable::rod {
 struct RodBatch::Impl {
   Impl(const std::vector<Rod*>& all, std::shared_ptr<StepChain<Lanes>> memory)
-      : rods(all), chain(std::move(memory)) {}
+      : rods(all), chain(std::move(memory)), masses(chain->masses.size()) {
+    for (int l = 0; l < kMaxRods; ++l) OfLane(l).FillMasses(l, chain->layout, &masses);
+  }
 
   // Lanes without a rod repeat the first one's and are never active.
   Rod::Impl& OfLane(int lane) {
@@ -17,6 +19,7 @@ struct RodBatch::Impl {
 
   std::vector<Rod*> rods;
   std::shared_ptr<StepChain<Lanes>> chain;
+  std::vector<NodeMass<Lanes>> masses;  // in the chain during a step
 };
 
 RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
@@ -57,7 +60,9 @@ std::vector<SolveReport> RodBatch::Step(double dt, const std::vector<RodDrive>& 
   chain.SetHeld(m.OfLane(0).model.a.clamped(), m.OfLane(0).model.b.clamped());
   Predict(c, states, &chain);
   for (int l = 0; l < kMaxRods; ++l) m.OfLane(l).HoldInChain(l, &chain);
+  std::swap(chain.masses, m.masses);
   SolveStep(c, &chain, steps);
+  std::swap(chain.masses, m.masses);
   const RodState* accepting[kMaxRods] = {};
   std::vector<SolveReport> reports(count);
   for (int l = 0; l < count; ++l) {

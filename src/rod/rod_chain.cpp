@@ -9,10 +9,32 @@ namespace cosserat_cable::rod {
 void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b) {
   if (!energy.open()) energy.Open({EndPower(), 0, 0}, StoredEnergy());
   next_law_ = LawOfStep(c.dt);
-  for (int e = 0; e < model.elements; ++e) next_offsets_[e] = Offset(next_law_, e);
+  const V3 unbend = -Scale(next_law_.C_M, ToSmall(model.section.kappa0));
+  for (int e = 0; e < model.elements; ++e) {
+    next_offsets_[e] = {{shear1.Offset(shear[e][0]), shear2.Offset(shear[e][1]), 0.0}, unbend};
+    if (branches.empty()) continue;
+    const SectionValue more = branches.Offset(e);
+    next_offsets_[e].F += ToSmall(more.F);
+    next_offsets_[e].M += ToSmall(more.M);
+  }
   ends_before_ = ends;
   ends.a.MoveTo(a, c);
   ends.b.MoveTo(b, c);
+}
+
+template <class T>
+void Rod::Impl::FillMasses(int rod_lane, const ChainLayout& layout,
+                           std::vector<NodeMass<T>>* masses) const {
+  const int end = layout.chain_elements;
+  for (int lane = 0; lane < kLaneCount<T>; ++lane) {
+    if (!layout.halves && lane != rod_lane) continue;
+    for (int k = 0; k <= end; ++k) {
+      const int i = std::max(0, layout.NodeAt(k, lane));
+      const double share = layout.halves && k == end ? 0.5 : 1.0;  // both halves have the middle
+      SetLane(&(*masses)[k].mass, lane, share * w.mass[i]);
+      SetLane(&(*masses)[k].inertia, lane, share * w.inertia[i]);
+    }
+  }
 }
 
 template <class T>
@@ -25,12 +47,7 @@ void Rod::Impl::FillChain(int rod_lane, StepChain<T>* chain) const {
     SetLane(&chain->gravity, lane, w.gravity);
     SetLane(&chain->law, lane, next_law_);
     if (backwards) SetLane(&chain->law.gamma0, lane, -next_law_.gamma0);
-    for (int k = 0; k <= end; ++k) {
-      const int i = std::max(0, layout.NodeAt(k, lane));
-      const double share = layout.halves && k == end ? 0.5 : 1.0;  // both halves have the middle
-      SetLane(&chain->nodes[k].mass, lane, share * w.mass[i]);
-      SetLane(&chain->nodes[k].inertia, lane, share * w.inertia[i]);
-    }
+
     for (int k = 0; k < end; ++k) {
       const ElementOffset<double>& offset = next_offsets_[std::max(0, layout.ElementAt(k, lane))];
       SetLane(&chain->offsets[k].F, lane, backwards ? -offset.F : offset.F);
@@ -72,6 +89,24 @@ void Rod::Impl::HoldInChain(int rod_lane, StepChain<T>* chain) const {
 }
 
 template <class T>
+double Rod::Impl::CommitBranches(const StepChain<T>& chain, int lane, double per_length) {
+  double rate = 0;
+  const int padding = lane == 0 ? chain.layout.padding : 0;
+  for (int k = padding; k < chain.layout.chain_elements; ++k) {
+    const auto strain_of = [&](const Vec3<T>& change) -> Eigen::Vector3d {
+      return ToEigen(per_length * GetLane(change, lane));
+    };
+    const ChainStrain<T>& found = chain.strains[k];
+    const int e = chain.layout.ElementAt(k, lane);
+    branches.Commit(e,
+                    {strain_of(found.u) - model.section.gamma0, strain_of(found.u_rate),
+                     strain_of(found.theta) - model.section.kappa0, strain_of(found.theta_rate)});
+    rate += branches.DissipationRate(e);
+  }
+  return rate;
+}
+
+template <class T>
 void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   const ChainLayout& layout = chain.layout;
   const ChainLayout::Place front = layout.OfNode(0, rod_lane);
@@ -83,27 +118,40 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
       missing_a[k] += GetLane(chain.load_rhs[front.entry][k], front.lane);
       missing_b[k] += GetLane(chain.load_rhs[back.entry][k], back.lane);
     }
-  dissipation_rate_ = 0;
-  for (int e = 0; e < model.elements; ++e) {
-    const ChainLayout::Place at = layout.OfElement(e, rod_lane);
-    const ChainStrain<T>& found = chain.strains[at.entry];
-    const double per_length = layout.halves && at.lane == 1 ? -1 / h : 1 / h;
-    const auto strain_of = [&](const Vec3<T>& change) {
-      return ToEigen(per_length * GetLane(change, at.lane));
-    };
-    const ElementStrain strain = {
-        strain_of(found.u) - model.section.gamma0, strain_of(found.u_rate),
-        strain_of(found.theta) - model.section.kappa0, strain_of(found.theta_rate)};
-    shear[e] = {shear1.Commit(shear[e][0], strain.gamma.x(), strain.gamma_dot.x()),
-                shear2.Commit(shear[e][1], strain.gamma.y(), strain.gamma_dot.y())};
-    branches.Commit(e, strain);
-    dissipation_rate_ += h * DissipationRate(e, strain);
+  // Nothing written below is part of these.
+  const ShearSeries series1 = shear1, series2 = shear2;
+  const double one_over_h = 1 / h;
+  const V3 gamma0 = next_law_.gamma0;
+  double dissipation = 0;
+  for (int lane = 0; lane < kLaneCount<T>; ++lane) {
+    if (!layout.halves && lane != rod_lane) continue;
+    const bool backwards = layout.halves && lane == 1;
+    const double per_length = backwards ? -one_over_h : one_over_h;
+    const int padding = lane == 0 ? layout.padding : 0;
+    double in_shear = 0;
+    for (int k = padding; k < layout.chain_elements; ++k) {
+      const ChainStrain<T>& strain = chain.strains[k];
+      ShearHistory& history = shear[layout.ElementAt(k, lane)];
+      const double rate1 = per_length * GetLane(strain.u_rate.x, lane);
+      const double rate2 = per_length * GetLane(strain.u_rate.y, lane);
+      history = {
+          series1.Commit(history[0], per_length * GetLane(strain.u.x, lane) - gamma0.x, rate1),
+          series2.Commit(history[1], per_length * GetLane(strain.u.y, lane) - gamma0.y, rate2)};
+      in_shear +=
+          series1.DissipationRate(history[0], rate1) + series2.DissipationRate(history[1], rate2);
+    }
+    dissipation += GetLane(chain.dissipation, lane) + h * in_shear;
+    if (!branches.empty()) dissipation += h * CommitBranches(chain, lane, per_length);
   }
+  dissipation_rate_ = dissipation;
   law = next_law_;
   std::swap(offsets, next_offsets_);
   stress_known_ = false;
 }
 
+template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<Lanes>>*) const;
+template void Rod::Impl::FillMasses(int, const ChainLayout&,
+                                    std::vector<NodeMass<LanePair>>*) const;
 template void Rod::Impl::FillChain(int, StepChain<Lanes>*) const;
 template void Rod::Impl::FillChain(int, StepChain<LanePair>*) const;
 template void Rod::Impl::HoldInChain(int, StepChain<Lanes>*) const;

@@ -45,14 +45,6 @@ double Rod::Impl::StoredEnergy() {
   return KineticEnergy() + ElasticEnergy() + GravityEnergy(w.node);
 }
 
-double Rod::Impl::DissipationRate(int e, const ElementStrain& strain) const {
-  const Eigen::Vector3d &gamma_dot = strain.gamma_dot, &kappa_dot = strain.kappa_dot;
-  return shear1.DissipationRate(shear[e][0], gamma_dot.x()) +
-         shear2.DissipationRate(shear[e][1], gamma_dot.y()) +
-         model.section.V_F.z() * gamma_dot.z() * gamma_dot.z() +
-         kappa_dot.dot(model.section.V_M.cwiseProduct(kappa_dot)) + branches.DissipationRate(e);
-}
-
 double Rod::Impl::EndPower() const {
   const auto power = [](const EndPart& end, const NodeState& node, const Vec6<double>& missing) {
     if (!end.bears()) return 0.0;

@@ -81,18 +81,6 @@ ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
   return law_of_step;
 }
 
-ElementOffset<double> Rod::Impl::Offset(const ElementLaw<double>& law_of_step, int element) const {
-  ElementOffset<double> offset = {
-      {shear1.Offset(shear[element][0]), shear2.Offset(shear[element][1]), 0.0},
-      -Scale(law_of_step.C_M, ToSmall(model.section.kappa0))};
-  if (!branches.empty()) {
-    const SectionValue more = branches.Offset(element);
-    offset.F += ToSmall(more.F);
-    offset.M += ToSmall(more.M);
-  }
-  return offset;
-}
-
 std::array<DynamicModulus, 6> Rod::Impl::Moduli() const {
   const Section& s = model.section;
   const auto kelvin_voigt = [](double C, double V) { return DynamicModulus{C, V, {}}; };

@@ -53,9 +53,6 @@ struct Rod::Impl {
   void PrepareStatics();
   /// The section law over a step of `dt` [s], without the elements' offsets.
   ElementLaw<double> LawOfStep(double dt);
-  /// What internal variables and the unstressed curvature add to the stresses of an element in a
-  /// step with this law.
-  ElementOffset<double> Offset(const ElementLaw<double>& law_of_step, int element) const;
   /// Of shear along a1 and a2, stretch, bending about a1 and a2, and twist.
   std::array<DynamicModulus, 6> Moduli() const;
 
@@ -64,7 +61,9 @@ struct Rod::Impl {
   /// The clamps are where they were: the step begun has failed.
   void TakeBackStep() { ends = ends_before_; }
   RodState State() { return {w.node.data(), w.rate.data(), w.algorithm.data()}; }
-  /// What a chain needs of the rod besides its state, into a lane, or into both halves.
+  template <class T>
+  void FillMasses(int lane, const ChainLayout& layout, std::vector<NodeMass<T>>* masses) const;
+  /// What a chain needs of the rod in a step besides its state, into a lane, or into both halves.
   template <class T>
   void FillChain(int lane, StepChain<T>* chain) const;
   /// The clamped ends into the chain's first iterate.
@@ -94,7 +93,10 @@ struct Rod::Impl {
  private:
   void EvaluateStress();
   ElementStrain StrainOf(const ElementStress& stress) const;
-  double DissipationRate(int element, const ElementStrain& strain) const;  // per length [W/m]
+  /// Gives the branches of a lane's elements their strains at the step's end; returns the sum of
+  /// what they dissipate, per length [W/m].
+  template <class T>
+  double CommitBranches(const StepChain<T>& chain, int lane, double per_length);
   double EndPower() const;
 
   ElementLaw<double> next_law_;  // of the step begun

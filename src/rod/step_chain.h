@@ -66,10 +66,15 @@ template <class T>
 struct ChainNode {
   Node<T> at;         // the iterate
   NodeRates<T> rate;  // its true accelerations
-  Quat<T> q0;         // where it was before the step
-  Vec3<T> turn;       // its rotation in the step [rad]
-  T mass;             // lumped at the node [kg]
-  Vec3<T> inertia;    // about the section's axes [kg m^2]
+
+  Quat<T> q0;    // where it was before the step
+  Vec3<T> turn;  // its rotation in the step [rad]
+};
+
+template <class T>
+struct NodeMass {
+  T mass;           // lumped at the node [kg]
+  Vec3<T> inertia;  // about the section's axes [kg m^2]
 };
 
 template <class T>
@@ -89,6 +94,8 @@ struct StepChain {
   explicit StepChain(const ChainLayout& where)
       : layout(where),
         nodes(layout.chain_elements + 1),
+        past(nodes.size()),
+        masses(nodes.size()),
         offsets(layout.chain_elements),
         strains(layout.chain_elements),
         factors(nodes.size()),
@@ -134,8 +141,11 @@ struct StepChain {
   ElementLaw<T> law;
 
   std::vector<ChainNode<T>> nodes;
+  std::vector<NodeRates<T>> past;  // what of the accelerations comes from the step's start
+  std::vector<NodeMass<T>> masses;
   std::vector<ElementOffset<T>> offsets;
-  std::vector<ChainStrain<T>> strains;     // of the accepted iterate
+  std::vector<ChainStrain<T>> strains;  // of the accepted iterate
+  T dissipation = 0.0;  // of the accepted iterate, in stretch, bending and twist [W]
   Vec6<T> missing_first[2], missing_last;  // what its end nodes lack to balance
 
   std::vector<NodeFactor<T>> factors;

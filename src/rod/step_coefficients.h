@@ -17,7 +17,7 @@ struct StepCoefficients {
     algorithm_by_rate = 1 / new_algorithm;
     const double coasting_algorithm = -algorithm_by_increment * dt * dt * (0.5 - kScheme.beta);
     coasting_velocity = dt * (1 - kScheme.gamma) + dt * kScheme.gamma * coasting_algorithm;
-    coasting_rate = old_algorithm + new_algorithm * coasting_algorithm;
+    coasting_rate = new_algorithm * coasting_algorithm;
   }
 
   double dt;                       ///< [s]
@@ -27,7 +27,7 @@ struct StepCoefficients {
   double algorithm_by_rate;        ///< d a_1/d vdot_1
   // With the increment dt v_0, which is the first guess:
   double coasting_velocity;  ///< d v_1/d a_0 [s]
-  double coasting_rate;      ///< d vdot_1/d a_0
+  double coasting_rate;      ///< d vdot_1/d a_0, besides `old_algorithm`
 };
 
 }  // namespace cosserat_cable::rod

@@ -29,6 +29,7 @@ class Placed : public rod::Centreline {
     return {p.x(), p.y(), p.z()};
   }
   Vec3<double> velocity(int) const override { return {}; }
+  Quat<double> orientation(int) const override { return {1, 0, 0, 0}; }
 
  private:
   std::vector<Vector3d> nodes_;

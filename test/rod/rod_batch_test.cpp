@@ -72,6 +72,61 @@ TEST(RodBatchTest, MatchesSingleSteps) {
   }
 }
 
+/// Pushes the rod aside against springs, inside of each element.
+class SpringOnNodes : public Load {
+ public:
+  void Evaluate(const Centreline& rod, LoadSink* sink) const override {
+    const Mat3<double> k = {{{-kStiffness, 0, 0}, {0, -kStiffness, 0}, {0, 0, 0}}};
+    for (int e = 0; e < rod.elements(); ++e) {
+      const double xi = 0.3;
+      const Vec3<double> p = (1 - xi) * rod.position(e) + xi * rod.position(e + 1);
+      const Vec3<double> v = (1 - xi) * rod.velocity(e) + xi * rod.velocity(e + 1);
+      sink->AddForce(e, xi, {0.2 - kStiffness * p.x, -kStiffness * p.y, -kDamping * v.z}, k,
+                     {{{0, 0, 0}, {0, 0, 0}, {0, 0, -kDamping}}});
+    }
+  }
+  double Energy(const Centreline&) const override { return 0; }
+
+ private:
+  static constexpr double kStiffness = 20, kDamping = 0.05;  // N/m, N s/m
+};
+
+TEST(RodBatchTest, MatchesSingleStepsForAnyEndsAndNumberOfElements) {
+  // A single rod is solved from both ends: their nodes may be held or free, and meet anywhere.
+  constexpr double kTolerance = 1e-9;  // as above
+  constexpr int kSteps = 40;
+  const SpringOnNodes load;
+  const EndModel sprung = EndModel::Sprung({0.1, 0.2, 0.3}, {1e-4, 1e-4, 1e-4});
+  const std::pair<EndModel, EndModel> ends[] = {{EndModel::Clamped(), EndModel::Free()},
+                                                {EndModel::Free(), EndModel::Clamped()},
+                                                {EndModel::Clamped(), EndModel::Clamped()},
+                                                {EndModel::Pinned(), EndModel::Clamped()},
+                                                {sprung, EndModel::Pinned()}};
+  const Pose a = kA;
+  for (int elements : {1, 2, 3, 8, 9})
+    for (int held = 0; held < 5; ++held) {
+      RodModel model = RoundCable(0.2, 0.008, 0.15, 0.008, 0.006, 1e-4, 5e-5, elements);
+      model.a = ends[held].first;
+      model.b = ends[held].second;
+      const Pose b = {{0, 0, 0.2}, Eigen::Quaterniond::Identity()};
+      Rod alone(model);
+      alone.SetConfiguration(StraightShape(kA, model.length, elements));
+      Rod first = alone, second = alone;
+      RodBatch batch({&first, &second});
+      for (int s = 0; s < kSteps; ++s) {
+        ASSERT_TRUE(alone.Step(kDt, a, b, &load).converged) << elements << " " << held;
+        for (const SolveReport& report : batch.Step(kDt, {{&a, &b, &load}, {&a, &b, &load}}))
+          ASSERT_TRUE(report.converged);
+      }
+      for (int i = 0; i <= elements; ++i)
+        EXPECT_LT((alone.pose(i).p - second.pose(i).p).norm(), kTolerance)
+            << elements << " elements, held " << held << ", node " << i;
+      const double force = alone.reaction_a().force.norm() + alone.reaction_b().force.norm();
+      EXPECT_LT((alone.reaction_a().force - second.reaction_a().force).norm(), 1e-6 * force);
+      EXPECT_LT((alone.reaction_b().moment - second.reaction_b().moment).norm(), 1e-6 * force);
+    }
+}
+
 TEST(RodBatchTest, ALaneDoesNotDependOnItsNeighbours) {
   const std::vector<Vector3d> all = StepTogether({0, 1, 2, 3}, 200);
   EXPECT_EQ(StepTogether({3, 1}, 200)[0], all[3]);
