@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kernel.h"
+#include "cosserat_cable/math/kernel.h"
 
 namespace cosserat_cable::rod {
 namespace {

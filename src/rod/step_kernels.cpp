@@ -1,6 +1,6 @@
 #include "step_kernels.h"
 
-#include "kernel.h"
+#include "cosserat_cable/math/kernel.h"
 
 namespace cosserat_cable::rod {
 
