@@ -219,6 +219,7 @@ CableReport CableSimulation::Report() {
   report.moment_a = a.moment;
   report.force_b = b.force;
   report.moment_b = b.moment;
+  report.energy = m.rod.energy_balance();
   return report;
 }
 

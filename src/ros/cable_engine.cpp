@@ -295,6 +295,8 @@ void CableEngine::EmitTelemetry(Cable* cable, OutputSink* sink) {
   summary.contact_force_max = std::max(summary.contact_force_max, message.contact_force);
   summary.tension_max = std::max(summary.tension_max, message.tension);
   summary.amplitude_max = std::max(summary.amplitude_max, message.amplitude);
+  summary.dissipated = message.dissipated;
+  summary.energy_residual = message.energy_residual;
   sink->Telemetry(cable->model().name, message);
 }
 

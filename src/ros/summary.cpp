@@ -22,6 +22,12 @@ std::string Millimetres(double metres) {
   return std::isfinite(metres) ? Format("%.2f", 1e3 * metres) : std::string("-");
 }
 
+/// The balance's residual as a share of what was dissipated.
+std::string EnergyError(const CableSummary& cable) {
+  if (!(cable.dissipated > 0)) return "-";
+  return Format("%.3f", 100 * std::abs(cable.energy_residual) / cable.dissipated) + "%";
+}
+
 }  // namespace
 
 std::string Summary::ToText() const {
@@ -30,18 +36,18 @@ std::string Summary::ToText() const {
        << " s: real-time factor " << Format("%.2f", real_time_factor()) << ", peak memory "
        << Format("%.0f", peak_memory / 1e6) << " MB\n";
   char line[200];
-  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %8s\n", "cable", "amplitude",
-                "curvature", "clearance", "contact", "retries");
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8s\n", "cable", "amplitude",
+                "curvature", "clearance", "contact", "energy", "retries");
   text << line;
-  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s\n", "", "max [mm]", "max [1/m]",
-                "min [mm]", "max [N]");
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s\n", "", "max [mm]", "max [1/m]",
+                "min [mm]", "max [N]", "off by");
   text << line;
   for (const CableSummary& cable : cables) {
     std::snprintf(
-        line, sizeof line, "%-28s %11s %12s %12s %10s %8llu\n", cable.name.c_str(),
+        line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8llu\n", cable.name.c_str(),
         Millimetres(cable.amplitude_max).c_str(), Format("%.2f", cable.curvature_max).c_str(),
         Millimetres(cable.clearance_min).c_str(), Format("%.2f", cable.contact_force_max).c_str(),
-        static_cast<unsigned long long>(cable.retried_steps));
+        EnergyError(cable).c_str(), static_cast<unsigned long long>(cable.retried_steps));
     text << line;
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
@@ -74,7 +80,9 @@ std::string Summary::ToJson() const {
          << ", \"curvature_max\": " << JsonNumber(cable.curvature_max)
          << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
          << ", \"contact_force_max\": " << JsonNumber(cable.contact_force_max)
-         << ", \"tension_max\": " << JsonNumber(cable.tension_max) << ", \"failure\": "
+         << ", \"tension_max\": " << JsonNumber(cable.tension_max)
+         << ", \"dissipated\": " << JsonNumber(cable.dissipated)
+         << ", \"energy_residual\": " << JsonNumber(cable.energy_residual) << ", \"failure\": "
          << (cable.failure.empty() ? std::string("null") : JsonString(cable.failure)) << "}";
     separator = ",";
   }

@@ -36,6 +36,10 @@ ApexTelemetry MakeTelemetry(const CableReport& report, const Motion& reference,
   Set(q_RW * report.moment_a, &m.moment_a_x, &m.moment_a_y, &m.moment_a_z);
   Set(q_RW * report.force_b, &m.force_b_x, &m.force_b_y, &m.force_b_z);
   Set(q_RW * report.moment_b, &m.moment_b_x, &m.moment_b_y, &m.moment_b_z);
+  m.work_clamps = report.energy.work_ends;
+  m.work_contact = report.energy.work_loads;
+  m.dissipated = report.energy.dissipated;
+  m.energy_residual = report.energy.Residual();
   return m;
 }
 
@@ -45,7 +49,8 @@ bool IsValid(const ApexTelemetry& m) {
         m.displacement_z, m.velocity_x,    m.velocity_y, m.velocity_z,     m.amplitude,
         m.curvature_max,  m.contact_force, m.tension,    m.force_a_x,      m.force_a_y,
         m.force_a_z,      m.moment_a_x,    m.moment_a_y, m.moment_a_z,     m.force_b_x,
-        m.force_b_y,      m.force_b_z,     m.moment_b_x, m.moment_b_y,     m.moment_b_z}) {
+        m.force_b_y,      m.force_b_z,     m.moment_b_x, m.moment_b_y,     m.moment_b_z,
+        m.work_clamps,    m.work_contact,  m.dissipated, m.energy_residual}) {
     if (!std::isfinite(value)) return false;
   }
   return !std::isnan(m.clearance) && m.clearance > -INFINITY;

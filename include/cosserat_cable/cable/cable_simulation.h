@@ -11,6 +11,7 @@
 #include "cosserat_cable/cable/cable_model.h"
 #include "cosserat_cable/contact/body.h"
 #include "cosserat_cable/math/pose.h"
+#include "cosserat_cable/rod/energy.h"
 #include "cosserat_cable/rod/modes.h"
 
 namespace cosserat_cable {
@@ -46,6 +47,7 @@ struct CableReport {
   double tension_max = 0;             ///< largest axial force [N] (positive: tension)
   Eigen::Vector3d force_a, moment_a;  ///< by clamp a on the cable [N], [N m]
   Eigen::Vector3d force_b, moment_b;
+  rod::EnergyBalance energy;  ///< since the cable settled; loads are contact
 };
 
 class CableSimulation {

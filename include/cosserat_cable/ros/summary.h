@@ -18,8 +18,10 @@ struct CableSummary {
   double clearance_min = std::numeric_limits<double>::infinity();  ///< [m]
   double contact_force_max = 0;                                    ///< [N]
   double tension_max = 0;                                          ///< [N]
-  double amplitude_max = 0;  ///< peak to peak over the window [m]
-  std::string failure;       ///< empty while all is well
+  double amplitude_max = 0;    ///< peak to peak over the window [m]
+  double dissipated = 0;       ///< since the cable last settled [J]
+  double energy_residual = 0;  ///< what the energy balance lacks [J]
+  std::string failure;         ///< empty while all is well
 };
 
 struct Summary {
