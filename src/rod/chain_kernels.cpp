@@ -234,10 +234,25 @@ void AddInertia(const StepCoefficients& c, const NodeMass<T>& lump, Triangle6<T>
 inline void Join(LanePair* x) { x->v += __builtin_shufflevector(x->v, x->v, 1, 0); }
 inline void Join(Lanes*) {}
 
+/// The nodes as the element between them sees them; kJointed: whether any rod has joints.
+template <bool kJointed, class T>
+struct ElementEnds {
+  ElementEnds(const StepChain<T>& w, int e) : a(w.nodes[e].at), b(w.nodes[e + 1].at) {}
+  const Node<T>&a, &b;
+};
 template <class T>
+struct ElementEnds<true, T> {
+  ElementEnds(const StepChain<T>& w, int e)
+      : a(SeenThrough(w.joints[e].first, w.nodes[e].at)),
+        b(SeenThrough(w.joints[e].second, w.nodes[e + 1].at)) {}
+  const Node<T> a, b;
+};
+
+template <bool kJointed, class T>
 ElementState<T> StateOf(const StepChain<T>& w, int e, T* largest) {
   ElementState<T> state;
-  const Node<T>&a = w.nodes[e].at, &b = w.nodes[e + 1].at;
+  const ElementEnds<kJointed, T> ends(w, e);
+  const Node<T>&a = ends.a, &b = ends.b;
   const RelativeTurn<T> turn = EvaluateTurn(a.q, b.q, &state.Rm);
   ArcTangentSeries<T> series = SumArcTangentSeries(turn.x2);
   *largest = Max(*largest, turn.x2);
@@ -250,8 +265,15 @@ ElementState<T> StateOf(const StepChain<T>& w, int e, T* largest) {
   return state;
 }
 
+template <bool kJointed, class T>
+ElementForces<T> ForcesOf(const StepChain<T>& w, int e, const ElementState<T>& state) {
+  ElementForces<T> forces = EvaluateForces(state);
+  if constexpr (kJointed) TurnBack(w.joints[e], &forces);
+  return forces;
+}
+
 /// False where it has to be done again, now with the exact functions where the series are not.
-template <class T>
+template <bool kJointed, class T>
 bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* chain, T* smallest) {
   StepChain<T>& w = *chain;
   const int first = w.first, last = w.last, elements = w.layout.chain_elements;
@@ -266,9 +288,9 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
   AddInertia(c, w.masses[0], &blocks[0]);
 
   for (int e = 0; e < elements; ++e) {
-    ElementState<T> state = StateOf(w, e, &largest);
+    ElementState<T> state = StateOf<kJointed>(w, e, &largest);
     EvaluateStress(law, w.offsets[e], &state);
-    const ElementForces<T> forces = EvaluateForces(state);
+    const ElementForces<T> forces = ForcesOf<kJointed>(w, e, state);
     SubtractFromFirst(forces, &b);
     Vec6<T> b_next = OwnForces(w, e + 1);
     const Vec6<T> on_second = OnSecond(forces);
@@ -278,7 +300,8 @@ bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* cha
 
     NodeFactor<T>& factor = w.factors[e];
     if (fresh) {
-      const ElementTangent<T> tangent = EvaluateTangent(state, moduli);
+      ElementTangent<T> tangent = EvaluateTangent(state, moduli);
+      if constexpr (kJointed) TurnBack(w.joints[e], &tangent);
       Triangle6<T>&s = blocks[e % 2], &next = blocks[(e + 1) % 2];
       AddToFirst(tangent, &s);
       SetAtSecond(tangent, &next);
@@ -381,21 +404,21 @@ void Subtract(const Vec6<T>& x, Vec6<T>* from) {
   for (int k = 0; k < 6; ++k) (*from)[k] -= x[k];
 }
 
-template <class T>
+template <bool kJointed, class T>
 bool EvaluateAcceptedOf(StepChain<T>* chain) {
   StepChain<T>& w = *chain;
   const int elements = w.layout.chain_elements, padding = w.layout.padding;
   const ScaledLaw<T> law(w.law);
   T largest(0.0), dissipation(0.0);
   for (int e = 0; e < elements; ++e) {
-    ElementState<T> state = StateOf(w, e, &largest);
+    ElementState<T> state = StateOf<kJointed>(w, e, &largest);
     w.strains[e] = {state.u, state.u_rate, state.theta, state.theta_rate};
     const T lost = law.V_F.z * state.u_rate.z * state.u_rate.z +
                    Dot(Scale(law.V_M, state.theta_rate), state.theta_rate);
     dissipation += e < padding ? w.exists * lost : lost;
     if (e > padding && e < elements - 1) continue;
     EvaluateStress(law, w.offsets[e], &state);
-    const ElementForces<T> forces = EvaluateForces(state);
+    const ElementForces<T> forces = ForcesOf<kJointed>(w, e, state);
     if (e <= padding) {
       w.missing_first[e] = OwnForces(w, e);
       SubtractFromFirst(forces, &w.missing_first[e]);
@@ -460,27 +483,36 @@ void AcceptOf(const StepCoefficients& c, const StepChain<BasicLanes<N>>& w,
 
 }  // namespace
 
-#define COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(T)                                                 \
-  COSSERAT_CABLE_KERNEL                                                                        \
-  void Predict(const StepCoefficients& c, const RodState* rods, StepChain<T>* w) {             \
-    PredictOf(c, rods, w);                                                                     \
-  }                                                                                            \
-  COSSERAT_CABLE_KERNEL                                                                        \
-  void EliminateForward(const StepCoefficients& c, bool fresh, StepChain<T>* w, T* smallest) { \
-    while (!EliminateForwardOf(c, fresh, w, smallest)) continue;                               \
-  }                                                                                            \
-  COSSERAT_CABLE_KERNEL                                                                        \
-  void CorrectBackward(const StepCoefficients& c, const T& keep, StepChain<T>* w,              \
-                       ChainCorrection<T>* size) {                                             \
-    CorrectBackwardOf(c, keep, w, size);                                                       \
-  }                                                                                            \
-  COSSERAT_CABLE_KERNEL                                                                        \
-  void EvaluateAccepted(StepChain<T>* w) {                                                     \
-    while (!EvaluateAcceptedOf(w)) continue;                                                   \
-  }                                                                                            \
-  COSSERAT_CABLE_KERNEL                                                                        \
-  void Accept(const StepCoefficients& c, const StepChain<T>& w, const RodState* const* rods) { \
-    AcceptOf(c, w, rods);                                                                      \
+// Joints are rare: with them, the loops are compiled once, for the oldest machine.
+#define COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(T)                                                   \
+  COSSERAT_CABLE_KERNEL                                                                          \
+  void Predict(const StepCoefficients& c, const RodState* rods, StepChain<T>* w) {               \
+    PredictOf(c, rods, w);                                                                       \
+  }                                                                                              \
+  COSSERAT_CABLE_KERNEL                                                                          \
+  void EliminateUnjointed(const StepCoefficients& c, bool fresh, StepChain<T>* w, T* smallest) { \
+    while (!EliminateForwardOf<false>(c, fresh, w, smallest)) continue;                          \
+  }                                                                                              \
+  void EliminateForward(const StepCoefficients& c, bool fresh, StepChain<T>* w, T* smallest) {   \
+    if (w->joints.empty()) return EliminateUnjointed(c, fresh, w, smallest);                     \
+    while (!EliminateForwardOf<true>(c, fresh, w, smallest)) continue;                           \
+  }                                                                                              \
+  COSSERAT_CABLE_KERNEL                                                                          \
+  void CorrectBackward(const StepCoefficients& c, const T& keep, StepChain<T>* w,                \
+                       ChainCorrection<T>* size) {                                               \
+    CorrectBackwardOf(c, keep, w, size);                                                         \
+  }                                                                                              \
+  COSSERAT_CABLE_KERNEL                                                                          \
+  void EvaluateUnjointed(StepChain<T>* w) {                                                      \
+    while (!EvaluateAcceptedOf<false>(w)) continue;                                              \
+  }                                                                                              \
+  void EvaluateAccepted(StepChain<T>* w) {                                                       \
+    if (w->joints.empty()) return EvaluateUnjointed(w);                                          \
+    while (!EvaluateAcceptedOf<true>(w)) continue;                                               \
+  }                                                                                              \
+  COSSERAT_CABLE_KERNEL                                                                          \
+  void Accept(const StepCoefficients& c, const StepChain<T>& w, const RodState* const* rods) {   \
+    AcceptOf(c, w, rods);                                                                        \
   }
 
 COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(Lanes)

@@ -144,18 +144,30 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
                                                           Vec6<double>* rhs) {
   const ScaledLaw<Lanes> wide(Broadcast(law));
   one_over_h_ = wide.one_over_h;
+  const Node<double>* lefts = nodes;
+  if (!joints_.empty()) {
+    seen_.resize(elements_);
+    for (int e = 0; e < elements_; ++e) seen_[e] = SeenThrough(joints_[e].first, nodes[e]);
+    lefts = seen_.data();
+  }
   for (int first = 0; first < elements_; first += kLanes) {
     // The lanes left over at the end repeat the last element.
-    const auto at = [&](int lane) { return nodes + std::min(first + lane, elements_ - 1); };
-    const Node<double>*n0 = at(0), *n1 = at(1), *n2 = at(2), *n3 = at(3);
+    const auto at = [&](const Node<double>* from, int lane) -> const Node<double>& {
+      return from[std::min(first + lane, elements_ - 1)];
+    };
+    const auto gather = [&](const Node<double>* from) {
+      return Gather(at(from, 0), at(from, 1), at(from, 2), at(from, 3));
+    };
     ElementState<Lanes>& state = states_[first / kLanes];
-    EvaluateStrain(Gather(*n0, *n1, *n2, *n3), Gather(n0[1], n1[1], n2[1], n3[1]), &state);
+    EvaluateStrain(gather(lefts), gather(nodes + 1), &state);
     EvaluateStress(wide, offsets_[first / kLanes], &state);
     const ElementForces<Lanes> forces = EvaluateForces(state);
     const int lanes = std::min(kLanes, elements_ - first);
-    for (int l = 0; l < lanes; ++l)
-      AddForces(ElementForces<double>{Lane(forces.f, l), Lane(forces.g1, l), Lane(forces.g2, l)},
-                &rhs[first + l], &rhs[first + l + 1]);
+    for (int l = 0; l < lanes; ++l) {
+      ElementForces<double> one = {Lane(forces.f, l), Lane(forces.g1, l), Lane(forces.g2, l)};
+      if (!joints_.empty()) TurnBack(joints_[first + l], &one);
+      AddForces(one, &rhs[first + l], &rhs[first + l + 1]);
+    }
   }
 }
 
@@ -168,10 +180,12 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
   for (int first = 0; first < elements_; first += kLanes) {
     const ElementTangent<Lanes> k = EvaluateTangent(states_[first / kLanes], law);
     const int lanes = std::min(kLanes, elements_ - first);
-    for (int l = 0; l < lanes; ++l)
-      AddTangent(ElementTangent<double>{Lane(k.rr, l), Lane(k.r1, l), Lane(k.r2, l), Lane(k.t11, l),
-                                        Lane(k.t12, l), Lane(k.t22, l)},
-                 first + l, system);
+    for (int l = 0; l < lanes; ++l) {
+      ElementTangent<double> one = {Lane(k.rr, l),  Lane(k.r1, l),  Lane(k.r2, l),
+                                    Lane(k.t11, l), Lane(k.t12, l), Lane(k.t22, l)};
+      if (!joints_.empty()) TurnBack(joints_[first + l], &one);
+      AddTangent(one, first + l, system);
+    }
   }
 }
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "block_tridiagonal.h"
-#include "element.h"
+#include "element_joint.h"
 
 namespace cosserat_cable::rod {
 
@@ -26,6 +26,10 @@ class ElementChain {
   /// in this step or in statics: internal variables, and -C_M K0 of the unstressed curvature.
   void SetOffset(int element, int lane, const Vec3<double>& offset_F, const Vec3<double>& offset_M);
 
+  /// How the frames that the elements see are turned from their nodes', one per element; none
+  /// without joints.
+  void SetJoints(std::vector<ElementJoint<double>> joints) { joints_ = std::move(joints); }
+
   /// Strains, rates and stresses between the `elements + 1` nodes; subtracts what they exert from
   /// `rhs`.
   void Evaluate(const Node<T>* nodes, const ElementLaw<T>& law, Vec6<T>* rhs);
@@ -44,6 +48,8 @@ class ElementChain {
   std::vector<ElementState<Lanes>> states_;
   Lanes one_over_h_ = 0.0;  // [1/m]
   std::vector<ElementOffset<Lanes>> offsets_;
+  std::vector<ElementJoint<double>> joints_;
+  std::vector<Node<double>> seen_;  // first nodes of the elements, where there are joints
 };
 
 }  // namespace cosserat_cable::rod

@@ -22,6 +22,8 @@ constexpr double kLargestShift = 1e9;
 constexpr int kMaxHalvings = 30;
 // Rounding of the energy, relative to the sum of its parts: differences below are noise.
 constexpr double kEnergyNoise = 1e-13;
+// Strains below are rounding: a rod without any load has no energy to compare with.
+constexpr double kStrainNoise = 1e-10;
 
 }  // namespace
 
@@ -39,11 +41,12 @@ SolveReport Rod::Equilibrate(const Load* load) {
   const double translation_scale = bending / (m.h * m.h * m.h);  // [N/m]
 
   const LaneView<double> view(&m.w, 0);
+  const double unstrained_noise = kStrainNoise * kStrainNoise * m.w.law.C_F.z * m.model.length;
   double noise = 0;
   const auto energy = [&] {
     const double strain = m.StaticEnergy(), gravity = m.GravityEnergy(m.w.trial);
     const double outside = load ? load->Energy(view) : 0.0;
-    noise = kEnergyNoise * (strain + std::abs(gravity) + std::abs(outside));
+    noise = kEnergyNoise * (strain + std::abs(gravity) + std::abs(outside)) + unstrained_noise;
     return strain + gravity + outside;
   };
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "element.h"
+#include "element_joint.h"
 #include "lane_view.h"
 #include "step_kernels.h"
 
@@ -45,13 +45,14 @@ Eigen::Matrix<double, kRows, 12> Derivatives(const Node<double>& a, const Node<d
 }
 
 /// What an element exerts under the force and moment of `stress`, wherever its nodes are.
-Vector12 ElementResidual(const Node<double>& a, const Node<double>& b,
+Vector12 ElementResidual(const Quat<double>& joint, const Node<double>& a, const Node<double>& b,
                          const ElementStress& stress) {
   ElementState<double> state;
-  EvaluateStrain<double>(a, b, &state);
+  EvaluateStrain<double>(SeenThrough(joint, a), b, &state);
   state.n = stress.n;
   state.m = stress.m;
-  const ElementForces<double> forces = EvaluateForces(state);
+  ElementForces<double> forces = EvaluateForces(state);
+  TurnBack({joint, {1, 0, 0, 0}}, &forces);
   Vector12 residual;
   residual << -forces.f.x, -forces.f.y, -forces.f.z, forces.g1.x, forces.g1.y, forces.g1.z,
       forces.f.x, forces.f.y, forces.f.z, forces.g2.x, forces.g2.y, forces.g2.z;
@@ -59,9 +60,10 @@ Vector12 ElementResidual(const Node<double>& a, const Node<double>& b,
 }
 
 /// Strains of an element, times its length.
-Eigen::Matrix<double, 6, 1> ElementStrains(const Node<double>& a, const Node<double>& b) {
+Eigen::Matrix<double, 6, 1> ElementStrains(const Quat<double>& joint, const Node<double>& a,
+                                           const Node<double>& b) {
   ElementState<double> state;
-  EvaluateStrain<double>(a, b, &state);
+  EvaluateStrain<double>(SeenThrough(joint, a), b, &state);
   Eigen::Matrix<double, 6, 1> strains;
   strains << state.u.x, state.u.y, state.u.z, state.theta.x, state.theta.y, state.theta.z;
   return strains;
@@ -85,8 +87,9 @@ void ClearTangent(StepWorkspace<double>* w) {
 }  // namespace
 
 LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli_of,
-                             const EndParts& ends, const std::vector<bool>& held_of,
-                             const Load* load, StepWorkspace<double>* w)
+                             const std::vector<Quat<double>>& joints, const EndParts& ends,
+                             const std::vector<bool>& held_of, const Load* load,
+                             StepWorkspace<double>* w)
     : held(held_of),
       mass(6 * w->count),
       geometric(w->count),
@@ -103,14 +106,16 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   material.assign(kComponents, SymmetricBands(w->count));
   for (int e = 0; e + 1 < w->count; ++e) {
     const Node<double>&a = w->trial[e], &b = w->trial[e + 1];
+    const Quat<double> joint = joints.empty() ? Quat<double>{1, 0, 0, 0} : joints[e];
     // How the forces turn with the nodes, at constant stress.
     const ElementStress stress = w->chain.Stress(e, 0);
     const Eigen::Matrix<double, 12, 12> turning = Derivatives<12>(
         a, b, h,
-        [&](const auto& one, const auto& two) { return ElementResidual(one, two, stress); });
+        [&](const auto& one, const auto& two) { return ElementResidual(joint, one, two, stress); });
     // The skew part adds up to the moments that a node lacks to balance: zero.
     AddElement(e, 0.5 * (turning + turning.transpose()), &geometric);
-    const Eigen::Matrix<double, 6, 12> strains = Derivatives<6>(a, b, h, ElementStrains);
+    const Eigen::Matrix<double, 6, 12> strains = Derivatives<6>(
+        a, b, h, [&](const auto& one, const auto& two) { return ElementStrains(joint, one, two); });
     for (int i = 0; i < kComponents; ++i)
       AddElement(e, moduli[i].C / h * strains.row(i).transpose() * strains.row(i), &material[i]);
   }

@@ -23,7 +23,8 @@ struct LinearisedRod {
 
   /// At the iterate of `w`, which is an equilibrium under its static law and `load`. `held`: by
   /// unknown. Overwrites the law, the right-hand side and the system of `w`.
-  LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli, const EndParts& ends,
+  LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli,
+                const std::vector<Quat<double>>& joints, const EndParts& ends,
                 const std::vector<bool>& held, const Load* load, StepWorkspace<double>* w);
 
   int unknowns() const { return static_cast<int>(held.size()); }

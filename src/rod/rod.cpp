@@ -79,6 +79,7 @@ SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load)
     m.pair.chain = std::make_unique<StepChain<LanePair>>(ChainLayout::Halves(m.model.elements));
     m.pair.chain->SetHeld(m.model.a.clamped(), m.model.b.clamped());
     m.FillMasses(0, m.pair.chain->layout, &m.pair.chain->masses);
+    if (!m.joints.empty()) m.pair.chain->SetJointed();
   }
   StepChain<LanePair>& chain = *m.pair.chain;
   const StepCoefficients c(dt);

@@ -30,6 +30,9 @@ RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
         rod->model().a.clamped() != rods.front()->model().a.clamped() ||
         rod->model().b.clamped() != rods.front()->model().b.clamped())
       throw std::invalid_argument("rods of a batch have equal elements and clamped ends");
+  for (const Rod* rod : rods)
+    if (!rod->model().joints.empty())
+      throw std::invalid_argument("a rod with joints is stepped by itself");
   const int elements = rods.front()->elements();
   auto memory = sharing && sharing->impl_->chain->layout.elements == elements
                     ? sharing->impl_->chain

@@ -48,11 +48,25 @@ void Rod::Impl::FillChain(int rod_lane, StepChain<T>* chain) const {
     SetLane(&chain->law, lane, next_law_);
     if (backwards) SetLane(&chain->law.gamma0, lane, -next_law_.gamma0);
 
+    if (!joints.empty()) FillJoints(lane, chain);
     for (int k = 0; k < end; ++k) {
       const ElementOffset<double>& offset = next_offsets_[std::max(0, layout.ElementAt(k, lane))];
       SetLane(&chain->offsets[k].F, lane, backwards ? -offset.F : offset.F);
       SetLane(&chain->offsets[k].M, lane, backwards ? -offset.M : offset.M);
     }
+  }
+}
+
+template <class T>
+void Rod::Impl::FillJoints(int lane, StepChain<T>* chain) const {
+  const ChainLayout& layout = chain->layout;
+  const Quat<double> straight{1, 0, 0, 0};
+  const bool backwards = layout.halves && lane == 1;
+  for (int k = 0; k < layout.chain_elements; ++k) {
+    const int e = layout.ElementAt(k, lane);  // the joint of its first node is before it
+    const Quat<double> turn = e < 0 ? straight : joints[e];
+    SetLane(&chain->joints[k].first, lane, backwards ? straight : turn);
+    SetLane(&chain->joints[k].second, lane, backwards ? turn : straight);
   }
 }
 

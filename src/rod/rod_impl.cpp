@@ -1,6 +1,8 @@
 #include "rod_impl.h"
 
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "step_kernels.h"
 
@@ -13,6 +15,20 @@ ShearSeries MakeShearSeries(const Section& section, double h, int shear_axis, in
                      12 * section.V_M[bending_axis] / (h * h));
 }
 
+std::vector<Quat<double>> JointsByNode(const RodModel& model) {
+  constexpr double kOnNode = 1e-6;  // of an element
+  std::vector<Quat<double>> joints;
+  for (const Joint& joint : model.joints) {
+    const double position = joint.s / model.length * model.elements;
+    const int node = static_cast<int>(std::lround(position));
+    if (std::abs(position - node) > kOnNode || node < 1 || node >= model.elements)
+      throw std::invalid_argument("a joint is at a node between the ends");
+    if (joints.empty()) joints.assign(model.elements + 1, {1, 0, 0, 0});
+    joints[node] = ToSmall(joint.turn.normalized());
+  }
+  return joints;
+}
+
 }  // namespace
 
 Rod::Impl::Impl(const RodModel& m)
@@ -21,6 +37,7 @@ Rod::Impl::Impl(const RodModel& m)
       shear1(MakeShearSeries(m.section, h, 0, 1)),  // shear along a1 goes with bending about a2
       shear2(MakeShearSeries(m.section, h, 1, 0)),
       branches(m.branches, m.elements),
+      joints(JointsByNode(m)),
       ends{EndPart(m.a), EndPart(m.b)},
       w(m.elements),
       shear(m.elements),
@@ -34,6 +51,19 @@ Rod::Impl::Impl(const RodModel& m)
     const double share = (i == 0 || i == w.count - 1) ? 0.5 * h : h;
     w.mass[i] = share * m.section.rhoA;
     w.inertia[i] = share * ToSmall(m.section.rhoJ);
+  }
+  if (!joints.empty()) {
+    std::vector<ElementJoint<double>> seen;
+    const Quat<double> straight{1, 0, 0, 0};
+    for (int e = 0; e < m.elements; ++e) seen.push_back({joints[e], straight});
+    w.chain.SetJoints(std::move(seen));
+    // Half of a joint's node belongs to the piece behind it: the diagonal of its turned inertia.
+    for (int i = 1; i < m.elements; ++i) {
+      const Eigen::Matrix3d J = ToEigen(joints[i]).toRotationMatrix();
+      w.inertia[i] =
+          0.5 * w.inertia[i] +
+          ToSmall((J * (0.5 * h * m.section.rhoJ).asDiagonal() * J.transpose()).diagonal().eval());
+    }
   }
   for (const LumpedBody& body : m.bodies) {
     const double position = std::clamp(body.s / h, 0.0, static_cast<double>(m.elements));

@@ -34,6 +34,7 @@ struct Rod::Impl {
   double h;  // element length [m]
   ShearSeries shear1, shear2;
   SectionBranches branches;
+  std::vector<Quat<double>> joints;  // by node; none of a rod without joints
   EndParts ends;
   StepWorkspace<double> w;  // `node`, `rate` and `algorithm` are the state
 
@@ -92,6 +93,8 @@ struct Rod::Impl {
 
  private:
   void EvaluateStress();
+  template <class T>
+  void FillJoints(int lane, StepChain<T>* chain) const;
   ElementStrain StrainOf(const ElementStress& stress) const;
   /// Gives the branches of a lane's elements their strains at the step's end; returns the sum of
   /// what they dissipate, per length [W/m].

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "element.h"
+#include "element_joint.h"
 #include "node_elimination.h"
 
 namespace cosserat_cable::rod {
@@ -106,6 +106,12 @@ struct StepChain {
     if (layout.padding > 0) SetLane(&exists, 0, 0.0);
   }
 
+  /// Makes room for joints; none yet.
+  void SetJointed() {
+    const Quat<T> straight{1.0, 0.0, 0.0, 0.0};
+    joints.assign(layout.chain_elements, {straight, straight});
+  }
+
   /// Which end nodes of the rods are held.
   void SetHeld(bool a, bool b) {
     const int end = layout.chain_elements;
@@ -144,6 +150,7 @@ struct StepChain {
   std::vector<NodeRates<T>> past;  // what of the accelerations comes from the step's start
   std::vector<NodeMass<T>> masses;
   std::vector<ElementOffset<T>> offsets;
+  std::vector<ElementJoint<T>> joints;  // none of rods without joints
   std::vector<ChainStrain<T>> strains;  // of the accepted iterate
   T dissipation = 0.0;  // of the accepted iterate, in stretch, bending and twist [W]
   Vec6<T> missing_first[2], missing_last;  // what its end nodes lack to balance

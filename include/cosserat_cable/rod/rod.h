@@ -27,6 +27,13 @@ struct LumpedBody {
   Eigen::Vector3d inertia = Eigen::Vector3d::Zero();
 };
 
+/// A rigid joint between two pieces of a rod, an elbow: behind it the section's frame is R turn,
+/// where it is R before.
+struct Joint {
+  double s;  ///< arc length [m], at a node
+  Eigen::Quaterniond turn;
+};
+
 struct RodModel {
   double length = 0;  ///< unstressed [m]
   int elements = 40;
@@ -34,6 +41,8 @@ struct RodModel {
   /// What the section has beside its Kelvin-Voigt elements; each rod clones them.
   std::vector<std::shared_ptr<const SectionBranch>> branches;
   std::vector<LumpedBody> bodies;
+  /// A node's own frame is the one before its joint.
+  std::vector<Joint> joints;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);  ///< [m/s^2]
   EndModel a, b;
 };
@@ -53,6 +62,7 @@ struct Wrench {
 
 class Rod : public Centreline {
  public:
+  /// @throws std::invalid_argument where a joint is not at a node between the ends
   explicit Rod(const RodModel& model);
   ~Rod() override;
   Rod(const Rod& other);

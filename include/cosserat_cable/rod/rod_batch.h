@@ -25,7 +25,7 @@ class RodBatch {
 
   /// `sharing`: a batch whose working memory this one uses as well, where both have the same number
   /// of elements: batches that are stepped in turn then fit into the cache together.
-  /// @throws std::invalid_argument where the rods do not fit together
+  /// @throws std::invalid_argument where the rods do not fit together, or one has joints
   explicit RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing = nullptr);
   ~RodBatch();
   RodBatch(RodBatch&&) noexcept;
