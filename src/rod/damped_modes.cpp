@@ -278,7 +278,10 @@ class RootSearch {
                          [](const Root& a, const Root& b) { return a.after_blow < b.after_blow; });
     // At critical damping the two are one.
     roots->second = second == found.end() ? roots->lambda : second->lambda;
-    if (std::abs(roots->second) < std::abs(roots->lambda)) std::swap(roots->lambda, roots->second);
+    // The slow one first; but one that grows outlives any that does not.
+    const bool grows = roots->lambda.real() > 0, second_grows = roots->second.real() > 0;
+    const bool slower = std::abs(roots->second) < std::abs(roots->lambda);
+    if (second_grows != grows ? second_grows : slower) std::swap(roots->lambda, roots->second);
     return true;
   }
 

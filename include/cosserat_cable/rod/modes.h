@@ -21,7 +21,7 @@ struct Mode {
   double w = 0;  ///< undamped angular frequency [rad/s]; 0 of a rigid or an unstable motion
 
   /// The root that carries most of the motion after a release from a pull [1/s]. Complex: the one
-  /// with positive imaginary part. Real: the slow one.
+  /// with positive imaginary part. Real: the slow one, or the one that grows.
   std::complex<double> lambda;
   /// Complex lambda: its conjugate. Real lambda: the other root that carries most of the motion
   /// after a blow; not always real, for where the viscosity of bending forbids fast bending, shear
