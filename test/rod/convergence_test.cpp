@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cosserat_cable/rod/modes.h"
 #include "rod/rod_cases.h"
 #include "rod/validation.h"
 
@@ -11,20 +12,21 @@ namespace {
 
 using Eigen::AngleAxisd;
 
-/// Cable P1 with a tenth of its damping, standing as an arch on a body that is swept through its
-/// resonance.
-struct Result {
-  double apex_height;  // at rest [m]
-  double resonance;    // largest amplitude of the apex in space [m]
-};
+const Pose kA;
+const Pose kB{{0.1, 0, 0}, Eigen::Quaterniond(AngleAxisd(M_PI, Eigen::Vector3d::UnitY()))};
 
-Result SweptArch(int elements, double dt) {
+/// Cable P1 with a tenth of its damping, standing as an arch.
+Rod ArchAtRest(int elements) {
   const RodModel model = RoundCable(0.2, 0.008, 0.22, 0.012, 0.009, 1.2e-5, 6e-6, elements);
-  const Pose a;
-  const Pose b{{0.1, 0, 0}, Eigen::Quaterniond(AngleAxisd(M_PI, Eigen::Vector3d::UnitY()))};
   Rod rod(model);
-  rod.SetConfiguration(BowedShape(a, b, 0.2, elements, model.gravity));
+  rod.SetConfiguration(BowedShape(kA, kB, 0.2, elements, model.gravity));
   EXPECT_TRUE(rod.Equilibrate().converged);
+  return rod;
+}
+
+/// Largest amplitude of its apex in space [m], on a body that is swept through its resonance.
+double Resonance(int elements, double dt) {
+  Rod rod = ArchAtRest(elements);
   const Eigen::Vector3d rest = rod.pose(elements / 2).p;
   Motion start;
   start.v.x() = 1.5e-3 * 2 * M_PI * 10;
@@ -37,7 +39,7 @@ Result SweptArch(int elements, double dt) {
       X.p.x() += 1.5e-3 * std::sin(2 * M_PI * (10 + 2 * t) * t);
       return X;
     };
-    EXPECT_TRUE(rod.Step(dt, shake(a), shake(b)).converged) << t;
+    EXPECT_TRUE(rod.Step(dt, shake(kA), shake(kB)).converged) << t;
     const double x = rod.pose(elements / 2).p.x() - rest.x();
     if (t > 4.5 && (last - before) * (x - last) < 0) {
       // Vertex of the parabola through three samples.
@@ -47,41 +49,59 @@ Result SweptArch(int elements, double dt) {
     before = last;
     last = x;
   }
-  return {rest.z(), largest};
+  return largest;
 }
 
 // Successive differences fall by 4 where the order is 2; where another order shows beside it, a
 // little less.
 constexpr double kLeastRatio = 3.5;
 
-TEST(ConvergenceTest, SecondOrderInTheElementLengthAndAccurateAtForty) {
+TEST(ConvergenceTest, ResonanceIsOfSecondOrderInTheElementLength) {
   constexpr double kDt = 5e-4;
-  constexpr double kApexWithin = 2.5e-3, kResonanceWithin = 4e-3;  // relative, at 40 elements
+  constexpr double kWithin = 4e-3;  // relative, at 40 elements
   const int elements[] = {10, 20, 40, 80};
-  Result results[4];
-  for (int k = 0; k < 4; ++k) results[k] = SweptArch(elements[k], kDt);
-  const auto check = [&](double Result::*value, const char* what, double within) {
-    const double coarse = results[0].*value, fine = results[1].*value, finer = results[2].*value,
-                 finest = results[3].*value;
-    EXPECT_GT(std::abs(coarse - fine) / std::abs(fine - finer), kLeastRatio) << what;
-    EXPECT_GT(std::abs(fine - finer) / std::abs(finer - finest), kLeastRatio) << what;
-    const double limit = finest + (finest - finer) / 3;
-    Validate({"Numerics", std::string(what) + ", against its own limit", "Richardson, N = 40, 80",
-              limit, finer, within * std::abs(limit), 40, kDt});
+  double value[4];
+  for (int k = 0; k < 4; ++k) value[k] = Resonance(elements[k], kDt);
+  for (int k = 0; k < 2; ++k)
+    EXPECT_GT(std::abs(value[k] - value[k + 1]) / std::abs(value[k + 1] - value[k + 2]),
+              kLeastRatio);
+  const double limit = value[3] + (value[3] - value[2]) / 3;
+  Validate({"Numerics", "resonant amplitude of P1, eta x 0.1 [m], against its limit in N",
+            "Richardson, N = 40, 80", limit, value[2], kWithin * limit, 40, kDt});
+}
+
+TEST(ConvergenceTest, RestShapeAndSwayFrequencyAreOfSecondOrderUpToFineMeshes) {
+  constexpr double kApexWithin = 2.5e-3, kFrequencyWithin = 1e-3;  // relative, at 40 elements
+  const int elements[] = {10, 20, 40, 80, 160};
+  double apex[5], frequency[5];
+  for (int k = 0; k < 5; ++k) {
+    const Rod rod = ArchAtRest(elements[k]);
+    apex[k] = rod.pose(elements[k] / 2).p.z();
+    for (const Mode& mode : FindModes(rod, 2))
+      if (mode.kind == ModeKind::kInPlane) frequency[k] = mode.w / (2 * M_PI);
+  }
+  const auto check = [&](const double* value, const char* what, double within) {
+    for (int k = 0; k < 3; ++k)
+      EXPECT_GT(std::abs(value[k] - value[k + 1]) / std::abs(value[k + 1] - value[k + 2]),
+                kLeastRatio)
+          << what << ' ' << elements[k];
+    const double limit = value[4] + (value[4] - value[3]) / 3;
+    Validate({"Numerics", std::string(what) + ", against its own limit", "Richardson, N = 80, 160",
+              limit, value[2], within * limit, 40});
   };
-  check(&Result::apex_height, "apex of arch P1 at rest [m]", kApexWithin);
-  check(&Result::resonance, "resonant amplitude of P1, eta x 0.1 [m]", kResonanceWithin);
+  check(apex, "apex of arch P1 at rest [m]", kApexWithin);
+  check(frequency, "sway of arch P1 in its plane [Hz]", kFrequencyWithin);
 }
 
 TEST(ConvergenceTest, SecondOrderInTheTimeStep) {
   constexpr double kWithin = 4e-3;  // relative, at 0.5 ms
   const double steps[] = {2e-3, 1e-3, 5e-4, 2.5e-4};
   double resonance[4];
-  for (int k = 0; k < 4; ++k) resonance[k] = SweptArch(20, steps[k]).resonance;
+  for (int k = 0; k < 4; ++k) resonance[k] = Resonance(20, steps[k]);
   for (int k = 0; k < 2; ++k)
-    EXPECT_GT(std::abs(resonance[k] - resonance[k + 1]) /
-                  std::abs(resonance[k + 1] - resonance[k + 2]),
-              kLeastRatio);
+    EXPECT_GT(
+        std::abs(resonance[k] - resonance[k + 1]) / std::abs(resonance[k + 1] - resonance[k + 2]),
+        kLeastRatio);
   const double limit = resonance[3] + (resonance[3] - resonance[2]) / 3;
   Validate({"Numerics", "resonant amplitude of P1, eta x 0.1 [m], against its limit in dt",
             "Richardson, dt = 0.5, 0.25 ms", limit, resonance[2], kWithin * limit, 20, 5e-4});
