@@ -80,6 +80,17 @@ TEST(CableModesTest, AShakenCableRingsDownAsItsFirstModeSays) {
   ExpectRingsDownAsItsFirstMode(&cable, Clamps());
 }
 
+TEST(CableModesTest, SoDoesOneInClampsThatGiveWayAndAMaterialThatRelaxes) {
+  CableModel model = SensorCable();
+  model.extensions = {
+      {"maxwell", {{{"tau", 0.02}, {"EI1", 1e-4}, {"EI2", 1e-4}, {"GJ", 1e-4}, {"EA", 0}}}},
+      {"clamp_compliance", {{{"a.bending", 0.02}, {"b.bending", 0.03}, {"b.torsion", 0.02}}}},
+      {"clamp_damping", {{{"a.bending", 1e-5}, {"b.bending", 1e-5}}}}};
+  CableSimulation cable(model, {}, kGravity);
+  ASSERT_TRUE(cable.Settle(Clamps()).ok);
+  ExpectRingsDownAsItsFirstMode(&cable, Clamps());
+}
+
 TEST(CableModesTest, OnePushedUpByAFloorFallsAsItsUnstableModeSays) {
   // The floor is 10 mm above where the U's bottom would hang, and without friction: standing on it
   // upright is an equilibrium, from which the least push makes the cable fall over.
