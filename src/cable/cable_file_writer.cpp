@@ -2,6 +2,7 @@
 
 #include "cosserat_cable/cable/cable_model.h"
 #include "cosserat_cable/input/number_text.h"
+#include "extensions.h"
 
 namespace cosserat_cable {
 namespace {
@@ -50,6 +51,12 @@ class CableWriter {
     }
     Line("masses", "[" + list + "]");
   }
+  void Extensions(const std::vector<CableExtension>& extensions) {
+    if (extensions.empty()) return Line("extensions", "{}");
+    text_ += indent_ + "extensions:\n";
+    for (const CableExtension& extension : extensions)
+      Line("  " + extension.name, WriteExtension(extension));
+  }
 
   const std::string& text() const { return text_; }
 
@@ -84,6 +91,7 @@ std::string WriteCable(const CableModel& cable, const std::string& indent) {
   out.Line("contact", "{stiffness: " + FormatNumber(cable.contact.stiffness) +
                           ", smoothing: " + FormatNumber(cable.contact.smoothing) +
                           ", damping: " + FormatNumber(cable.contact.damping) + "}");
+  out.Extensions(cable.extensions);
   return out.text();
 }
 

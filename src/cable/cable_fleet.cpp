@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <tuple>
 
 #include "cable_simulation_impl.h"
 #include "cosserat_cable/rod/rod_batch.h"
@@ -23,12 +24,15 @@ struct CableFleet::Impl {
 CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
     : impl_(std::make_unique<Impl>()) {
   impl_->cables = cables;
-  std::map<int, std::vector<std::size_t>> by_elements;
-  for (std::size_t i = 0; i < cables.size(); ++i)
-    by_elements[cables[i]->model().elements].push_back(i);
+  // What the rods of a batch have in common: the number of elements, and which ends are rigid.
+  std::map<std::tuple<int, bool, bool>, std::vector<std::size_t>> alike;
+  for (std::size_t i = 0; i < cables.size(); ++i) {
+    const rod::RodModel& rod = cables[i]->impl_->rod.model();
+    alike[{rod.elements, rod.a.clamped(), rod.b.clamped()}].push_back(i);
+  }
   impl_->groups.reserve(cables.size());  // batches stay where they are while others share with them
   const rod::RodBatch* last_batch = nullptr;
-  for (const auto& [elements, members] : by_elements)
+  for (const auto& [kind, members] : alike)
     for (std::size_t first = 0; first < members.size(); first += rod::RodBatch::kMaxRods) {
       const std::size_t last = std::min(members.size(), first + rod::RodBatch::kMaxRods);
       Impl::Group group;

@@ -19,6 +19,11 @@ inline NumberSpec BendingStiffnessSpec() {
 }
 /// Extension and shear; 1e10 N is a steel bar of 0.25 m.
 inline NumberSpec AxialStiffnessSpec() { return NumberSpec::Above(0, "N").AtMost(1e10); }
+/// Of a branch beside the section's own stiffness, which may leave a component out.
+inline NumberSpec BranchBendingStiffnessSpec() {
+  return NumberSpec::AtLeast(0, "N m^2").AtMost(1e5).Hint("is it in N mm^2?");
+}
+inline NumberSpec BranchAxialStiffnessSpec() { return NumberSpec::AtLeast(0, "N").AtMost(1e10); }
 inline NumberSpec BendingDampingSpec() { return NumberSpec::AtLeast(0, "N m^2 s"); }
 inline NumberSpec AxialDampingSpec() { return NumberSpec::AtLeast(0, "N s"); }
 inline NumberSpec ArcLengthSpec() {

@@ -4,6 +4,7 @@
 #include "cable_key_specs.h"
 #include "cosserat_cable/cable/cable_keys.h"
 #include "cosserat_cable/input/number_text.h"
+#include "extensions.h"
 
 namespace cosserat_cable {
 namespace {
@@ -137,6 +138,24 @@ void FillDamping(const CableKeys& keys, CableModel* model) {
   model->eta_GA2 = ValueOf(shear[1], 2 * std::sqrt(model->rhoI() * model->GA2));
 }
 
+void FillExtensions(const CableKeys& keys, CableModel* model) {
+  if (!keys.extensions.value) return;
+  for (const ExtensionKey& key : *keys.extensions.value) model->extensions.push_back(key.extension);
+}
+
+void FillUncertain(const CableKeys& keys, CableModel* model, Problems* problems) {
+  if (!keys.uncertain.value) return;
+  const std::vector<std::string> numbers = ExtensionNumberNames(model->extensions);
+  for (const UncertainKey& key : *keys.uncertain.value) {
+    model->uncertain.push_back(key.name);
+    const bool known = std::find(numbers.begin(), numbers.end(), key.name) != numbers.end();
+    if (known || key.name.rfind(ExtensionNumberPrefix(), 0) != 0) continue;
+    const std::string nearest = NearestWord(key.name, numbers);
+    problems->Add(key.mark, "got '" + key.name + "', expected a number of the cable's extensions" +
+                                (nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
+  }
+}
+
 }  // namespace
 
 CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problems* problems) {
@@ -144,7 +163,10 @@ CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problem
   CheckPresence(keys, &check);
   CheckAlongLength(keys, &check);
   CheckMaterial(keys, &check);
+  CheckExtensions(keys, problems);
   CableModel model;
+  FillExtensions(keys, &model);
+  FillUncertain(keys, &model, problems);
   if (!check.ok()) return model;
 
   model.length = *keys.length.value;
@@ -161,7 +183,6 @@ CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problem
     for (const LinkKey& link : *keys.avoid.value) model.avoid.push_back(link.name);
   }
   model.contact = keys.contact.value.value_or(model.contact);
-  model.uncertain = keys.uncertain.value.value_or(model.uncertain);
   return model;
 }
 

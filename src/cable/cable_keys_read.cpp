@@ -3,6 +3,8 @@
 
 #include "cable_key_specs.h"
 #include "cosserat_cable/cable/cable_keys.h"
+#include "extensions.h"
+#include "read_pair.h"
 
 namespace cosserat_cable {
 namespace {
@@ -10,7 +12,8 @@ namespace {
 constexpr int kFewestElements = 4;
 constexpr int kMostElements = 1000;
 
-// What `uncertain` may name: every numeric key of a cable, and the one of a rig's disc.
+// What `uncertain` may name besides numbers of the extensions: every numeric key of a cable, and
+// the one of a rig's disc.
 const std::vector<std::string>& NumericKeys() {
   static const std::vector<std::string> keys = {"length",  "diameter",    "mass_per_length",
                                                 "EI",      "EI1",         "EI2",
@@ -39,32 +42,6 @@ std::optional<DampingKey> ParseDamping(const YamlValue& value, const NumberSpec&
   return DampingKey{DampingKey::Kind::kNumber, *number};
 }
 
-// A quantity given by one key (EI), or by two for the directions a1 and a2 (EI1, EI2).
-template <typename T, typename Parse>
-CableKey<std::array<T, 2>> ReadPair(MapReader* map, const std::string& key, const Parse& parse) {
-  const YamlValue both = map->Optional(key);
-  const YamlValue first = map->Optional(key + "1");
-  const YamlValue second = map->Optional(key + "2");
-  CableKey<std::array<T, 2>> pair;
-  const YamlValue& one = first.given() ? first : second;
-  if (both.given()) {
-    pair.mark = both.mark();
-    if (const std::optional<T> value = parse(both)) pair.value = {*value, *value};
-    if (one.given()) {
-      one.Report("got this beside " + key + ", expected either " + key + ", or " + key + "1 and " +
-                 key + "2");
-    }
-  } else if (one.given()) {
-    pair.mark = one.mark();
-    if (!first.given() || !second.given()) {
-      one.Report("got this alone, expected " + key + "1 and " + key + "2, or " + key);
-    }
-    const std::optional<T> values[2] = {parse(first), parse(second)};
-    if (values[0] && values[1]) pair.value = {*values[0], *values[1]};
-  }
-  return pair;
-}
-
 CableKey<double> ReadNumber(const YamlValue& value, const NumberSpec& spec) {
   if (!value.given()) return {};
   return {value.Number(spec), value.mark()};
@@ -83,11 +60,14 @@ CableKey<std::vector<LumpedMassKey>> ReadMasses(const YamlValue& value) {
   return {masses, value.mark()};
 }
 
-CableKey<std::vector<std::string>> ReadUncertain(const YamlValue& value) {
+CableKey<std::vector<UncertainKey>> ReadUncertain(const YamlValue& value) {
   if (!value.given()) return {};
-  std::vector<std::string> keys;
+  std::vector<UncertainKey> keys;
   for (const YamlValue& item : value.Items("a list of the names of numeric keys")) {
-    if (const auto key = item.OneOf(NumericKeys())) keys.push_back(*key);
+    // Which numbers the extensions have is known once the cable's type has been asked.
+    const bool of_extension = item.Shown().rfind("'" + ExtensionNumberPrefix(), 0) == 0;
+    const auto key = of_extension ? item.Text() : item.OneOf(NumericKeys());
+    if (key) keys.push_back({*key, item.mark()});
   }
   return {keys, value.mark()};
 }
@@ -121,10 +101,6 @@ CableKey<ContactLaw> ReadContact(const YamlValue& value) {
   law.damping = map.Optional("damping").Number(ContactDampingSpec()).value_or(law.damping);
   if (!value.given()) return {};
   return {law, value.mark()};
-}
-
-void RefuseExtensions(const YamlValue& value) {
-  if (!value.IsEmpty()) value.ReportUnexpected("none: this version knows no extensions");
 }
 
 template <typename T>
@@ -169,7 +145,7 @@ CableKeys ReadCableKeys(MapReader* map) {
   }
   keys.avoid = ReadAvoid(map->Optional("avoid"));
   keys.contact = ReadContact(map->Optional("contact"));
-  RefuseExtensions(map->Optional("extensions"));
+  keys.extensions = ReadExtensions(map->Optional("extensions"));
   return keys;
 }
 
@@ -191,6 +167,7 @@ void CableKeys::FillFrom(const CableKeys& other) {
   Fill(&elements, other.elements);
   Fill(&avoid, other.avoid);
   Fill(&contact, other.contact);
+  Fill(&extensions, other.extensions);
 }
 
 }  // namespace cosserat_cable

@@ -6,6 +6,7 @@
 #include "cable_simulation_impl.h"
 #include "cosserat_cable/math/motion_between.h"
 #include "cosserat_cable/rod/initial_shape.h"
+#include "extensions.h"
 
 namespace cosserat_cable {
 namespace {
@@ -29,6 +30,7 @@ rod::RodModel MakeRodModel(const CableModel& cable, const Eigen::Vector3d& gravi
   section.rhoA = cable.mass_per_length;
   section.rhoJ = {cable.rhoI(), cable.rhoI(), cable.rhoJ()};
   for (const LumpedMass& m : cable.masses) rod.bodies.push_back({m.s, m.mass, Eigen::Vector3d::Zero()});
+  EnterExtensions(cable, &rod);
   return rod;
 }
 

@@ -75,6 +75,29 @@ Matrix3d EndPart::SpringTangent(const Node<double>& node, double rate_factor) co
   return J.transpose() * k.asDiagonal() * J;
 }
 
+Matrix3d EndPart::StaticTangent(const Node<double>& node, const Vector3d& missing) const {
+  // The moment -J^T m with m, that of springs and holding axes alike, against psi: how it turns at
+  // constant m, by a difference of fourth order, and how m grows.
+  constexpr double kStep = 1e-3;  // [rad]
+  const Vector3d psi = Compare(node).psi;
+  const Matrix3d J = RightJacobianInverse(psi);
+  const Vector3d m = J.transpose().inverse() * missing;
+  Matrix3d turning;
+  for (int k = 0; k < 3; ++k) {
+    const auto at = [&](double by) -> Vector3d {
+      const Eigen::Quaterniond q = RotationExp(psi) * RotationExp(by * Vector3d::Unit(k));
+      return RightJacobianInverse(RotationLog(q)).transpose() * m;
+    };
+    turning.col(k) =
+        (8 * (at(kStep) - at(-kStep)) - (at(2 * kStep) - at(-2 * kStep))) / (12 * kStep);
+  }
+  return 0.5 * (turning + turning.transpose()) + J.transpose() * model_.stiffness.asDiagonal() * J;
+}
+
+Matrix3d EndPart::RotationByPsi(const Node<double>& node) const {
+  return RightJacobianInverse(Compare(node).psi).inverse();
+}
+
 double EndPart::SpringEnergy(const Node<double>& node) const {
   if (!sprung_) return 0;
   const Vector3d psi = Compare(node).psi;

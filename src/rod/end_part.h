@@ -37,6 +37,12 @@ class EndPart {
   /// Minus its derivative by the section's rotation, where d(rate)/d(rotation) is `rate_factor`
   /// [1/s]: symmetric, not negative.
   Eigen::Matrix3d SpringTangent(const Node<double>& node, double rate_factor) const;
+  /// Second derivative of the potential of what the clamp exerts at rest, symmetric, where it
+  /// balances a moment of `missing` [N m] (section frame) on the section: what SpringTangent leaves
+  /// out, because it is not positive, included.
+  Eigen::Matrix3d StaticTangent(const Node<double>& node, const Eigen::Vector3d& missing) const;
+  /// Rotation of the section (section frame) by increment of psi, whose components are held or not.
+  Eigen::Matrix3d RotationByPsi(const Node<double>& node) const;
   double SpringEnergy(const Node<double>& node) const;           ///< [J]
   double SpringDissipationRate(const Node<double>& node) const;  ///< [W]
 

@@ -94,7 +94,9 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
       mass(6 * w->count),
       geometric(w->count),
       load_damping(w->count),
-      moduli(moduli_of) {
+      moduli(moduli_of),
+      turn_a(Eigen::Matrix3d::Identity()),
+      turn_b(Eigen::Matrix3d::Identity()) {
   for (int i = 0; i < w->count; ++i)
     mass.segment<6>(6 * i) << w->mass[i], w->mass[i], w->mass[i], w->inertia[i].x, w->inertia[i].y,
         w->inertia[i].z;
@@ -102,6 +104,8 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   // Not AssembleTangent's, which serves Newton's iteration and has the second order in the
   // elements' angles only: in a natural frequency its error would be seen (1e-3 at 40 elements).
   EvaluateForces(w);
+  if (load) AddLoad(*load, 0, false, 0.0, w);
+  const Vec6<double> missing[] = {w->rhs.front(), w->rhs.back()};
   const double h = w->law.h;
   material.assign(kComponents, SymmetricBands(w->count));
   for (int e = 0; e + 1 < w->count; ++e) {
@@ -131,10 +135,21 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   }
   ends.ForEachActive([&](const EndPart& end, bool at_b) {
     const int i = at_b ? w->count - 1 : 0;
-    const Eigen::Matrix3d stiffness = end.SpringTangent(w->trial[i], 0.0);
-    geometric.diagonal[i].bottomRightCorner<3, 3>() += stiffness;
+    const Node<double>& node = w->trial[i];
+    const Vec6<double>& lacks = missing[at_b ? 1 : 0];
+    geometric.diagonal[i].bottomRightCorner<3, 3>() +=
+        end.StaticTangent(node, {lacks[3], lacks[4], lacks[5]});
     load_damping.diagonal[i].bottomRightCorner<3, 3>() +=
-        end.SpringTangent(w->trial[i], 1.0) - stiffness;
+        end.SpringTangent(node, 1.0) - end.SpringTangent(node, 0.0);
+    if (!end.holds_rotation()) return;
+    // The mass stays: in these axes too, all but diagonal, and of half an element only.
+    Eigen::Matrix3d& turn = at_b ? turn_b : turn_a;
+    turn = end.RotationByPsi(node);
+    SymmetricBands::Block S = SymmetricBands::Block::Identity();
+    S.bottomRightCorner<3, 3>() = turn;
+    geometric.Substitute(i, S);
+    load_damping.Substitute(i, S);
+    for (SymmetricBands& stiffness : material) stiffness.Substitute(i, S);
   });
   for (int k = 0; k < unknowns(); ++k) {
     if (!held[k]) continue;
@@ -143,6 +158,12 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
     load_damping.Clear(k);
     for (SymmetricBands& stiffness : material) stiffness.Clear(k);
   }
+}
+
+Eigen::Vector3d LinearisedRod::Rotation(const Eigen::VectorXd& x, int node) const {
+  const Eigen::Vector3d last = x.segment<3>(6 * node + 3);
+  if (node == 0) return turn_a * last;
+  return 6 * (node + 1) == unknowns() ? Eigen::Vector3d(turn_b * last) : last;
 }
 
 SymmetricBands LinearisedRod::Stiffness() const {

@@ -3,7 +3,8 @@
 // K(lambda) = K_g + lambda D + sum_i k_i(lambda)/C_i K_i with the stiffness K_g of stresses and
 // loads, the damping D of loads, and for each of the six section components the stiffness K_i that
 // it has at rest and its dynamic modulus k_i. x: six unknowns per node, displacement in the world's
-// axes [m] and rotation in the section's [rad]; those that are held have rows and columns of zeros.
+// axes [m] and rotation in the section's [rad], or, at an end that is held about some axes only,
+// that of its psi (end_model.h); those that are held have rows and columns of zeros.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,11 +32,15 @@ struct LinearisedRod {
   /// K(0).
   SymmetricBands Stiffness() const;
 
+  /// Of a node, in its section's axes [rad].
+  Eigen::Vector3d Rotation(const Eigen::VectorXd& x, int node) const;
+
   std::vector<bool> held;
   Eigen::VectorXd mass;  ///< M, diagonal [kg], [kg m^2]
   SymmetricBands geometric, load_damping;
   std::vector<SymmetricBands> material;  ///< K_i
   std::array<DynamicModulus, kComponents> moduli;
+  Eigen::Matrix3d turn_a, turn_b;  ///< rotation by the end nodes' last three unknowns
 };
 
 }  // namespace cosserat_cable::rod

@@ -137,11 +137,12 @@ ModeKind KindOf(const Mode& mode) {
   return mode.out_of_plane > mode.in_plane ? ModeKind::kOutOfPlane : ModeKind::kInPlane;
 }
 
-void SetShape(const Directions& directions, const VectorXd& x, Mode* mode) {
+void SetShape(const LinearisedRod& rod, const Directions& directions, const VectorXd& x,
+              Mode* mode) {
   const int nodes = static_cast<int>(x.size()) / 6;
   for (int i = 0; i < nodes; ++i) {
     mode->displacement.push_back(x.segment<3>(6 * i));
-    mode->rotation.push_back(directions.R(i) * x.segment<3>(6 * i + 3));
+    mode->rotation.push_back(directions.R(i) * rod.Rotation(x, i));
   }
   const auto& measure = mode->kind == ModeKind::kTorsion ? mode->rotation : mode->displacement;
   const auto longest = std::max_element(
@@ -235,7 +236,7 @@ std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
     mode.in_plane = std::max(0.0, 1 - mode.out_of_plane - mode.torsion);
     ShareElasticEnergy(linear, x, &mode);
     mode.kind = KindOf(mode);
-    SetShape(directions, x, &mode);
+    SetShape(linear, directions, x, &mode);
   }
   return modes;
 }

@@ -45,6 +45,13 @@ struct SymmetricBands {
     if (node + 1 < nodes()) lower[node].col(k).setZero();
   }
 
+  /// Takes for a node unknowns y with x = S y in place of x.
+  void Substitute(int node, const Block& S) {
+    diagonal[node] = (S.transpose() * diagonal[node] * S).eval();
+    if (node > 0) lower[node - 1] = (S.transpose() * lower[node - 1]).eval();
+    if (node + 1 < nodes()) lower[node] = (lower[node] * S).eval();
+  }
+
   /// The matrix times columns of any scalar.
   template <class Matrix>
   Matrix operator*(const Matrix& x) const {

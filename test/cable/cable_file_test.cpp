@@ -312,15 +312,6 @@ TEST(CableFile, ReportsWhatShouldBeMaps) {
             "f:9: types.hose: got 3, expected a map of a cable's keys\n");
 }
 
-TEST(CableFile, RefusesExtensionsThatItDoesNotKnow) {
-  EXPECT_EQ(SaidWith("  extensions: {air_drag: {coefficient: 1.2}}\n"),
-            "f:9: cable.extensions: got a map, expected none: this version knows no extensions\n");
-  EXPECT_EQ(
-      SaidWith("  extensions: maxwell\n"),
-      "f:9: cable.extensions: got 'maxwell', expected none: this version knows no extensions\n");
-  EXPECT_EQ(SaidWith("  extensions:\n"), "");
-}
-
 TEST(CableFile, ReportsKeysThatAreUnknownTwiceThereOrMissing) {
   EXPECT_EQ(Said("mass_per_length", "mass_per_lenght"),
             "f:2: cable.mass_per_length: missing, expected a number in (0, 50] [kg/m]\n"

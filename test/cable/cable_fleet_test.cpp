@@ -73,6 +73,34 @@ TEST(CableFleetTest, StepsAsOneByOne) {
     EXPECT_LT((together[k].Report().apex - alone[k].Report().apex).norm(), kTolerance) << k;
 }
 
+TEST(CableFleetTest, MixesClampsThatGiveWayWithRigidOnes) {
+  constexpr double kTolerance = 1e-8;  // [m] rounding only
+  const auto settled = [] {
+    std::vector<CableSimulation> cables;
+    for (int k = 0; k < 7; ++k) {
+      CableModel model = Hose(0, 40);
+      if (k % 3 > 0)
+        model.extensions = {
+            {"clamp_compliance", {{{k % 3 == 1 ? "a.bending" : "b.torsion", 0.5}}}}};
+      cables.emplace_back(model, std::vector<const Body*>{&Floor()}, kGravity);
+      EXPECT_TRUE(cables.back().Settle(At(0)).ok);
+    }
+    return cables;
+  };
+  std::vector<CableSimulation> together = settled(), alone = settled();
+  CableFleet fleet(Pointers(together));
+  for (int s = 1; s <= 100; ++s) {
+    const Surroundings then = At(s * kDt);
+    for (const StepOutcome& outcome :
+         fleet.Step(kDt, std::vector<const Surroundings*>(together.size(), &then)))
+      ASSERT_TRUE(outcome.ok);
+    for (CableSimulation& cable : alone) ASSERT_TRUE(cable.Step(kDt, then).ok);
+  }
+  for (std::size_t k = 0; k < together.size(); ++k)
+    EXPECT_LT((together[k].Report().apex - alone[k].Report().apex).norm(), kTolerance) << k;
+  EXPECT_GT((together[0].Report().apex - together[1].Report().apex).norm(), 1e-4);
+}
+
 TEST(CableFleetTest, ACableThatFailsOrRestsLeavesTheOthersAlone) {
   const std::vector<int> elements(4, 40);
   std::vector<CableSimulation> all = Settled(elements), some = Settled(elements);

@@ -33,6 +33,11 @@ void ExpectSame(const CableModel& a, const CableModel& b) {
   EXPECT_EQ(a.elements, b.elements);
   EXPECT_EQ(a.avoid, b.avoid);
   EXPECT_EQ(a.uncertain, b.uncertain);
+  ASSERT_EQ(a.extensions.size(), b.extensions.size());
+  for (std::size_t i = 0; i < a.extensions.size(); ++i) {
+    EXPECT_EQ(a.extensions[i].name, b.extensions[i].name);
+    EXPECT_EQ(a.extensions[i].parts, b.extensions[i].parts);
+  }
   EXPECT_EQ(a.contact.stiffness, b.contact.stiffness);
   EXPECT_EQ(a.contact.smoothing, b.contact.smoothing);
   EXPECT_EQ(a.contact.damping, b.contact.damping);

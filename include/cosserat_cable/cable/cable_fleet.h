@@ -9,8 +9,8 @@
 namespace cosserat_cable {
 
 /// Takes the same steps as CableSimulation::Step, several cables at a time: those with equal
-/// numbers of elements go in groups of four through the lanes of one kernel. What a cable does does
-/// not depend on the others, to the last bit.
+/// numbers of elements, and the same ends held rigidly, go in groups of four through the lanes of
+/// one kernel. What a cable does does not depend on the others, to the last bit.
 class CableFleet {
  public:
   /// The simulations outlive this, and are stepped through it only.

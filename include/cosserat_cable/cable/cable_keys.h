@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +48,18 @@ struct LinkKey {
   SourceMark mark;
 };
 
+struct UncertainKey {
+  std::string name;
+  SourceMark mark;
+};
+
+struct ExtensionKey {
+  CableExtension extension;
+  SourceMark mark;
+  /// Where the file gives its numbers, by part and path; those left out are not here.
+  std::vector<std::map<std::string, SourceMark>> marks;
+};
+
 /// Pairs are about, or along, a1 and a2; a file gives them by one key (EI) or by two (EI1, EI2).
 struct CableKeys {
   CableKey<double> length, diameter, mass_per_length, GJ, EA, apex_s;
@@ -54,16 +67,18 @@ struct CableKeys {
   CableKey<DampingKey> eta_GJ, eta_EA;
   CableKey<std::array<DampingKey, 2>> eta_EI, eta_GA;
   CableKey<std::vector<LumpedMassKey>> masses;
-  CableKey<std::vector<std::string>> uncertain;
+  CableKey<std::vector<UncertainKey>> uncertain;
   CableKey<int> elements;
   CableKey<std::vector<LinkKey>> avoid;
   CableKey<ContactLaw> contact;
+  CableKey<std::vector<ExtensionKey>> extensions;
 
-  /// Takes from `other` what is not given here. A pair is taken or left as a whole.
+  /// Takes from `other` what is not given here. A pair is taken or left as a whole,
+  /// and so are the extensions.
   void FillFrom(const CableKeys& other);
 };
 
-/// Reads the keys above, and `extensions`, none of which this version knows. Nothing is required.
+/// Reads the keys above. Nothing is required.
 CableKeys ReadCableKeys(MapReader* map);
 
 /// Fills in the defaults and checks what holds between keys. Missing keys, and damping that is

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/cable/cable_extension.h"
 #include "cosserat_cable/contact/contact_law.h"
 #include "cosserat_cable/input/problems.h"
 #include "cosserat_cable/math/pose.h"
@@ -45,6 +46,7 @@ struct CableModel {
   int elements = 40;
   std::vector<std::string> avoid;  ///< links whose collision geometry the cable may touch
   ContactLaw contact;
+  std::vector<CableExtension> extensions;  ///< physics beyond the Kelvin-Voigt rod; default none
   std::vector<std::string>
       uncertain;  ///< keys that identification may adjust; unused in simulation
 

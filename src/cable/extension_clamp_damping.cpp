@@ -1,0 +1,42 @@
+// `clamp_damping`: dashpots beside the springs of clamps that give way.
+#include <algorithm>
+
+#include "extension_clamps.h"
+
+namespace cosserat_cable {
+namespace {
+
+void Enter(const CableExtension& extension, rod::RodModel* rod) {
+  ForEachClampAxis(extension, rod, [](rod::EndModel* end, int axis, double damping) {
+    end->damping[axis] = damping;
+  });
+}
+
+// Where a clamp does not turn, a dashpot would be without effect.
+void Check(const ExtensionKey& key, const CableKeys& cable, Problems* problems) {
+  const std::vector<ExtensionKey>& all = *cable.extensions.value;
+  const auto springs = std::find_if(all.begin(), all.end(), [](const ExtensionKey& other) {
+    return other.extension.name == "clamp_compliance";
+  });
+  for (const auto& [path, mark] : key.marks.front()) {
+    if (springs != all.end() && springs->marks.front().count(path)) continue;
+    problems->Add(mark,
+                  "got a loss where the clamp is rigid, expected the stiffness with which it gives "
+                  "way in clamp_compliance: " +
+                      path);
+  }
+}
+
+}  // namespace
+
+ExtensionLaw ClampDampingLaw() {
+  ExtensionLaw law;
+  law.name = "clamp_damping";
+  law.shape = "clamps {a: {bending: ..., torsion: ...}, b: ...}";
+  law.fields = ClampFields(NumberSpec::AtLeast(0, "N m s/rad"));
+  law.check = Check;
+  law.enter = Enter;
+  return law;
+}
+
+}  // namespace cosserat_cable

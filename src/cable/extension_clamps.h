@@ -1,0 +1,28 @@
+// What extensions of the clamps share: numbers for bending and torsion at clamps a and b.
+#pragma once
+
+#include "extension_law.h"
+
+namespace cosserat_cable {
+
+/// `a` and `b`, each with `bending` and `torsion`.
+inline std::vector<ExtensionField> ClampFields(const NumberSpec& spec) {
+  std::vector<ExtensionField> fields;
+  for (const char* path : {"a.bending", "a.torsion", "b.bending", "b.torsion"})
+    fields.push_back({path, spec, ExtensionField::Need::kAny});
+  return fields;
+}
+
+/// Calls `act(end, axis, value)` for each axis of the clamps about which a number is given.
+template <class Act>
+void ForEachClampAxis(const CableExtension& extension, rod::RodModel* rod, const Act& act) {
+  const auto& numbers = extension.parts.front();
+  for (const auto& [clamp, end] : {std::make_pair(std::string("a"), &rod->a), {"b", &rod->b}}) {
+    if (const auto bending = numbers.find(clamp + ".bending"); bending != numbers.end())
+      for (const int axis : {0, 1}) act(end, axis, bending->second);
+    if (const auto torsion = numbers.find(clamp + ".torsion"); torsion != numbers.end())
+      act(end, 2, torsion->second);
+  }
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,45 @@
+// What a law that a cable may have beside the rigidly clamped Kelvin-Voigt rod tells of itself.
+//
+// A new one is a file extension_NAME.cpp with its keys and what it does to the rod, its test, its
+// entry in extension_laws.cpp, and its paragraph in config/cables/template.yaml. Reading, writing,
+// naming its numbers in `uncertain` and reporting mistakes follow from the keys.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/cable/cable_keys.h"
+#include "cosserat_cable/input/number_spec.h"
+#include "cosserat_cable/rod/rod.h"
+
+namespace cosserat_cable {
+
+/// One key of an extension.
+struct ExtensionField {
+  enum class Need {
+    kRequired,
+    kAny  ///< may be left out; an entry without any of these would do nothing, and is a mistake
+  };
+  std::string path;  ///< "tau"; "a.bending" for one in a map of the entry
+  NumberSpec spec;
+  Need need = Need::kRequired;
+  std::optional<double> otherwise =
+      std::nullopt;   ///< where it is left out; nothing: then it is absent
+  bool pair = false;  ///< one key for both directions (EI) or two (EI1, EI2)
+};
+
+struct ExtensionLaw {
+  std::string name;
+  std::string shape;  ///< what is said to be expected of an entry (of a list's item)
+  bool list = false;  ///< one or more of the same
+  std::vector<ExtensionField> fields;
+  /// Reports what does not go with the rest of the cable; may be null.
+  void (*check)(const ExtensionKey& key, const CableKeys& cable, Problems* problems) = nullptr;
+  void (*enter)(const CableExtension& extension, rod::RodModel* rod) = nullptr;
+};
+
+/// Every one that there is.
+const std::vector<ExtensionLaw>& ExtensionLaws();
+
+}  // namespace cosserat_cable
