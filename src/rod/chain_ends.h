@@ -44,7 +44,9 @@ void ImposeEnds(const StepCoefficients& c, const EndParts& ends, int lane, StepC
   });
 }
 
-/// Adds the clamps' springs to what loads add, and makes what is held immovable.
+/// Adds the clamps' springs to what loads add. With the tangent, makes what is held go to where the
+/// clamps have it, and nowhere else: put there before the first solution, which moves the nodes
+/// beside it as well, it would kink the rod.
 template <class T>
 void AddEnds(const StepCoefficients& c, const EndParts& ends, int lane, bool tangent,
              StepChain<T>* chain) {
@@ -80,6 +82,13 @@ void AddEnds(const StepCoefficients& c, const EndParts& ends, int lane, bool tan
     EndPart::Matrix6 block = EndPart::Matrix6::Identity() - end.FreeProjector(node);
     block.topLeftCorner<3, 3>() *= kImmovable * stiff_r;
     block.bottomRightCorner<3, 3>() *= kImmovable * stiff_phi;
+    Node<double> held = node;
+    end.ImposePose(&held);
+    Eigen::Matrix<double, 6, 1> gap;
+    gap << ToEigen(held.r - node.r),
+        RotationLog((ToEigen(node.q).conjugate() * ToEigen(held.q)).normalized());
+    const Eigen::Matrix<double, 6, 1> pull = block * gap;
+    for (int k = 0; k < 6; ++k) add(pull[k], at.lane, &chain->load_rhs[at.entry][k]);
     block.bottomRightCorner<3, 3>() += end.SpringTangent(node, c.velocity_by_increment);
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j <= i; ++j)

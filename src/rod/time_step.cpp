@@ -59,7 +59,6 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       if (running[r]) ImposeEnds(c, *rods[r].ends, r, chain);
   };
 
-  impose_ends();
   for (int iteration = 1; iteration <= kMaxIterations && any_running(); ++iteration) {
     const bool fresh = iteration == 1 || iteration >= kRefactorFrom;
     add_loads(fresh, true, [&](int r) { return running[r]; });
