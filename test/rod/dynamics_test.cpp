@@ -3,68 +3,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "rod/rod_cases.h"
+#include "rod/published_rods.h"
+#include "rod/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {
 
 using Eigen::Vector3d;
-
-/// The paper's excitation: an arch on a body swept from 10 to 38 Hz in 7 s with A = 1.5 mm.
-struct Sweep {
-  double EI, rhoA, eta_EI;
-  Vector3d axis;
-  int elements = 40;
-  double dt = 1e-3;
-
-  static constexpr double kAmplitude = 1.5e-3, kStart = 10, kRate = 2;
-
-  /// Calls `observe(t, apex along the axis in the world frame [m])` after each step until `end`
-  /// [s].
-  template <class Observer>
-  void Run(double end, Observer observe) const {
-    const RodModel model =
-        RoundCable(0.2, 0.008, rhoA, EI, 0.75 * EI, eta_EI, eta_EI / 2, elements);
-    const Pose a = Facing(Vector3d::Zero(), Vector3d::UnitZ());
-    const Pose b{{0.1, 0, 0}, Eigen::Quaterniond(Eigen::AngleAxisd(M_PI, Vector3d::UnitY()))};
-    Rod rod(model);
-    rod.SetConfiguration(BowedShape(a, b, 0.2, elements, model.gravity));
-    ASSERT_TRUE(rod.Equilibrate().converged);
-    Motion start;
-    start.v = kAmplitude * 2 * M_PI * kStart * axis;
-    start.a = kAmplitude * 4 * M_PI * kRate * axis;
-    rod.AddRigidMotion(start);
-    for (int k = 1; k * dt <= end + 0.5 * dt; ++k) {
-      const double t = k * dt, phase = 2 * M_PI * (kStart + kRate * t) * t;
-      const auto clamp = [&](Pose X) {
-        X.p += kAmplitude * std::sin(phase) * axis;
-        return X;
-      };
-      ASSERT_TRUE(rod.Step(dt, clamp(a), clamp(b)).converged) << "at " << t;
-      observe(t, rod.pose(elements / 2).p.dot(axis));
-    }
-  }
-
-  double ApexAt(double time) const {
-    double last = 0;
-    Run(time, [&](double, double x) { last = x; });
-    return last;
-  }
-
-  /// Half the peak-to-peak of the apex within a period around each time [m].
-  std::vector<double> ApexAmplitudes(const std::vector<double>& times) const {
-    std::vector<double> low(times.size(), 1e9), high(times.size(), -1e9), amplitudes;
-    Run(*std::max_element(times.begin(), times.end()) + 0.03, [&](double t, double x) {
-      for (std::size_t i = 0; i < times.size(); ++i)
-        if (std::abs(t - times[i]) < 0.03) {
-          low[i] = std::min(low[i], x);
-          high[i] = std::max(high[i], x);
-        }
-    });
-    for (std::size_t i = 0; i < times.size(); ++i) amplitudes.push_back(0.5 * (high[i] - low[i]));
-    return amplitudes;
-  }
-};
 
 // An independent prototype's table for cables that reproduce the source paper's Figs 11 and 12; its
 // values are good to about 1 %, and are given to three digits.
