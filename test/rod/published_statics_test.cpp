@@ -95,10 +95,11 @@ TEST(PublishedStatics, PrincetonBeam) {
     rod.SetConfiguration(StraightShape(Pose{}, kL, kElements));
     const PointLoads force(kL, {{kL, {load[k], 0, 0}}});
     ASSERT_TRUE(rod.Equilibrate(&force).converged);
-    Validate({"Statics", "Princeton beam, flat, " + std::to_string(load[k]).substr(0, 6) +
-                             " N: tip deflection [m]",
-              "Dowell and Traybar 1975, geometrically exact solution", target[k],
-              rod.pose(kElements).p.x(), kWithin * target[k], kElements});
+    Validate(
+        {"Statics",
+         "Princeton beam, flat, " + std::to_string(load[k]).substr(0, 6) + " N: tip deflection [m]",
+         "Dowell and Traybar 1975, geometrically exact solution", target[k],
+         rod.pose(kElements).p.x(), kWithin * target[k], kElements});
   }
 }
 
