@@ -21,8 +21,6 @@ std::vector<double> Frequencies(ModeKind kind, const std::vector<Mode>& modes) {
   return w;
 }
 
-std::string Shown(double x) { return std::to_string(x).substr(0, 4); }
-
 constexpr double kLength = 0.3, kRhoA = 0.05, kEI = 0.02;
 
 Rod StraightBeam(double diameter, double eta_EI, int elements, bool free_end) {

@@ -113,6 +113,29 @@ struct Sweep {
     return last;
   }
 
+  /// From one extreme of the apex to the next: the time between them [s], half the way [m].
+  struct Swing {
+    double t, size;
+  };
+  std::vector<Swing> Swings(double end) const {
+    std::vector<Swing> swings;
+    double before = 0, last = 0, extreme = 0, when = 0;
+    Run(end, [&](double t, double x) {
+      if ((last - before) * (x - last) < 0) {
+        // Vertex of the parabola through three samples.
+        const double curvature = before - 2 * last + x, slope = 0.5 * (x - before);
+        const double vertex = last - 0.5 * slope * slope / curvature;
+        const double at = t - dt - slope / curvature * dt;
+        if (when > 0) swings.push_back({0.5 * (at + when), 0.5 * std::abs(vertex - extreme)});
+        extreme = vertex;
+        when = at;
+      }
+      before = last;
+      last = x;
+    });
+    return swings;
+  }
+
   /// Half the peak-to-peak of the apex within a period around each time [m].
   std::vector<double> ApexAmplitudes(const std::vector<double>& times) const {
     std::vector<double> low(times.size(), 1e9), high(times.size(), -1e9), amplitudes;

@@ -46,7 +46,7 @@ TEST(PublishedStatics, ElasticaCantilever) {
     rod.SetConfiguration(StraightShape(Pose{}, 1.0, kElements));
     const PointLoads force(1.0, {{1.0, {0.02 * load[k], 0, 0}}});
     ASSERT_TRUE(rod.Equilibrate(&force).converged);
-    const std::string name = "elastica, P L^2/EI = " + std::to_string(static_cast<int>(load[k]));
+    const std::string name = "elastica, P L^2/EI = " + Shown(load[k]);
     const char* source = "Mattiasson 1981";
     const Vector3d tip = rod.pose(kElements).p;
     Validate({"Statics", name + ": w/L", source, w[k], tip.x(), kWithin, kElements});
@@ -95,11 +95,9 @@ TEST(PublishedStatics, PrincetonBeam) {
     rod.SetConfiguration(StraightShape(Pose{}, kL, kElements));
     const PointLoads force(kL, {{kL, {load[k], 0, 0}}});
     ASSERT_TRUE(rod.Equilibrate(&force).converged);
-    Validate(
-        {"Statics",
-         "Princeton beam, flat, " + std::to_string(load[k]).substr(0, 6) + " N: tip deflection [m]",
-         "Dowell and Traybar 1975, geometrically exact solution", target[k],
-         rod.pose(kElements).p.x(), kWithin * target[k], kElements});
+    Validate({"Statics", "Princeton beam, flat, " + Shown(load[k]) + " N: tip deflection [m]",
+              "Dowell and Traybar 1975, geometrically exact solution", target[k],
+              rod.pose(kElements).p.x(), kWithin * target[k], kElements});
   }
 }
 
@@ -115,8 +113,7 @@ TEST(PublishedStatics, CollinearClampedArch) {
     b.p.z() = 1 - shortening[k];
     rod.SetConfiguration(BowedShape(Pose{}, b, 1.0, kElements, Vector3d::Zero()));
     ASSERT_TRUE(rod.Equilibrate().converged);
-    const std::string name =
-        "clamped arch, end shortening " + std::to_string(shortening[k]).substr(0, 4) + " L";
+    const std::string name = "clamped arch, end shortening " + Shown(shortening[k]) + " L";
     const Vector3d middle = rod.pose(kElements / 2).p;
     Validate({"Statics", name + ": rise/L", "inextensible elastica", rise[k],
               std::hypot(middle.x(), middle.y()), kWithin * rise[k], kElements});

@@ -79,18 +79,8 @@ void SweptArches(const std::string& folder) {
     for (const double factor : {1.5, 1.0, 0.5, 0.1}) {
       Sweep sweep{cable.EI, cable.rhoA, factor * cable.eta_EI, cable.axis};
       sweep.dt = 5e-4;
-      double before = 0, last = 0, extreme = 0, when = 0;
-      sweep.Run(7, [&](double t, double x) {
-        if ((last - before) * (x - last) < 0) {
-          if (when > 0)
-            out << cable.number << ',' << factor << ',' << 0.5 * (t - sweep.dt + when) << ','
-                << 500 * std::abs(last - extreme) << '\n';
-          extreme = last;
-          when = t - sweep.dt;
-        }
-        before = last;
-        last = x;
-      });
+      for (const Sweep::Swing& swing : sweep.Swings(7))
+        out << cable.number << ',' << factor << ',' << swing.t << ',' << 1e3 * swing.size << '\n';
     }
 }
 
