@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
+
+#include "rod/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -47,6 +50,21 @@ class ElementTest : public ::testing::Test {
     const ElementForces<double> k = rod::EvaluateForces<double>(Evaluate(a, b));
     return {-k.f.x, -k.f.y, -k.f.z, k.g1.x, k.g1.y, k.g1.z,
             k.f.x,  k.f.y,  k.f.z,  k.g2.x, k.g2.y, k.g2.z};
+  }
+
+  /// Takes a node to where it is, and how it moves, after a rigid motion of everything.
+  std::function<Node<double>(Node<double>)> RandomRigidMotion() {
+    const Quat<double> turn = Exp(RandomVector(2.0));
+    const Mat3<double> R = ToMatrix(turn);
+    const V shift = RandomVector(1.0), v = RandomVector(2.0), w = RandomVector(20.0);
+    return [=](Node<double> n) {
+      n.q = turn * n.q;
+      n.r = R * n.r;
+      n.v = R * n.v + v + Cross(w, n.r);
+      n.omega = n.omega + TransposeTimes(ToMatrix(n.q), w);
+      n.r += shift;
+      return n;
+    };
   }
 
   static constexpr double kH = 5e-3;
@@ -115,17 +133,7 @@ TEST_F(ElementTest, RigidMotionChangesNeitherStrainNorRate) {
   constexpr double kRelative = 1e-12;  // physics: objectivity, a few roundings
   MakeNodes(0.2);
   const auto before = Evaluate(a_, b_);
-  const Quat<double> turn = Exp(RandomVector(2.0));
-  const Mat3<double> R = ToMatrix(turn);
-  const V shift = RandomVector(1.0), v = RandomVector(2.0), w = RandomVector(20.0);
-  const auto moved = [&](Node<double> n) {
-    n.q = turn * n.q;
-    n.r = R * n.r;
-    n.v = R * n.v + v + Cross(w, n.r);
-    n.omega = n.omega + TransposeTimes(ToMatrix(n.q), w);
-    n.r += shift;
-    return n;
-  };
+  const auto moved = RandomRigidMotion();
   const auto after = Evaluate(moved(a_), moved(b_));
   const auto near = [&](const V& x, const V& y, double scale) {
     const V d = x - y;
@@ -137,6 +145,31 @@ TEST_F(ElementTest, RigidMotionChangesNeitherStrainNorRate) {
   near(before.kappa, after.kappa, kCancellation * 100);
   near(before.gamma_dot, after.gamma_dot, kCancellation * 100);
   near(before.kappa_dot, after.kappa_dot, kCancellation * 1000);
+}
+
+TEST_F(ElementTest, RigidMotionChangesNeitherEnergyNorDissipation) {
+  constexpr double kRelative = 1e-12;
+  constexpr int kCases = 200;
+  const V V_F{0.01, 0.01, 0.1}, V_M{1e-4, 1e-4, 5e-5};
+  const auto power = [&](const Strained& e) {
+    return kH *
+           (Dot(e.gamma_dot, Scale(V_F, e.gamma_dot)) + Dot(e.kappa_dot, Scale(V_M, e.kappa_dot)));
+  };
+  double energy_before = 0, energy_after = 0, power_before = 0, power_after = 0;
+  for (int k = 0; k < kCases; ++k) {
+    MakeNodes(0.2);
+    const auto moved = RandomRigidMotion();
+    const Strained before = Evaluate(a_, b_), after = Evaluate(moved(a_), moved(b_));
+    energy_before += StrainEnergy(before, law_);
+    energy_after += StrainEnergy(after, law_);
+    power_before += power(before);
+    power_after += power(after);
+  }
+  const char* source = "objectivity";
+  Validate({"Numerics", "rigid motion of strained elements: relative change of their energy",
+            source, 0, energy_after / energy_before - 1, kRelative, kCases});
+  Validate({"Numerics", "rigid motion of strained elements: relative change of their dissipation",
+            source, 0, power_after / power_before - 1, kRelative, kCases});
 }
 
 TEST_F(ElementTest, TangentIsTheDerivativeOfTheForcesUpToTheSkewPart) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cosserat_cable/rod/point_loads.h"
+#include "rod/ringing.h"
 #include "rod/rod_cases.h"
 
 namespace cosserat_cable::rod {
@@ -125,56 +126,6 @@ TEST(EndsTest, AClampThatGivesWayMayMoveAsFastAsARigidOne) {
       EXPECT_LE(report.iterations, kIterations) << k;
     }
   }
-}
-
-/// Zero crossings and envelope of a decaying signal about zero: damped frequency [rad/s], decay
-/// [1/s].
-struct Ringing {
-  double Omega, delta;
-};
-Ringing Listen(const std::vector<double>& x, double dt) {
-  std::vector<double> zeros, peaks, times;
-  for (std::size_t k = 1; k + 1 < x.size(); ++k) {
-    if (x[k - 1] * x[k] < 0) zeros.push_back((k - 1 + x[k - 1] / (x[k - 1] - x[k])) * dt);
-    if ((x[k] - x[k - 1]) * (x[k + 1] - x[k]) < 0) {
-      const double curvature = x[k - 1] - 2 * x[k] + x[k + 1], slope = 0.5 * (x[k + 1] - x[k - 1]);
-      peaks.push_back(std::abs(x[k] - 0.5 * slope * slope / curvature));
-      times.push_back((k - slope / curvature) * dt);
-    }
-  }
-  return {M_PI * (zeros.size() - 1) / (zeros.back() - zeros.front()),
-          std::log(peaks.front() / peaks.back()) / (times.back() - times.front())};
-}
-
-TEST(EndsTest, TorsionalPendulumFollowsTheSourcePaper) {
-  // Eqs. (12), (13): w^2 = GJ/(L J), 2 delta = (eta_GJ/L + D_E)/J, with a third of the cable's own
-  // inertia in J (Rayleigh).
-  constexpr double kRelative = 5e-3;
-  constexpr double kDisc = 2e-6, kEta = 2e-6, kD_E = 4e-6;
-  RodModel model = RoundCable(kLength, 0.008, 0.09, kEI, kGJ, 1e-4, kEta, 20);
-  model.gravity.setZero();
-  model.b = EndModel::Free();
-  model.b.damping = {0, 0, kD_E};  // at the fixation; here the disc turns in it
-  model.bodies = {{kLength, 0.05, {kDisc / 2, kDisc / 2, kDisc}}};
-  Rod rod = Straight(model);
-  PointLoads twist(kLength, {{kLength, Vector3d::Zero(), {0, 0, kGJ / kLength * 0.5}}});
-  twist.loads[0].follower = true;
-  ASSERT_TRUE(rod.Equilibrate(&twist).converged);
-  const Pose a;
-  Pose released = rod.pose(20);
-  released.q.setIdentity();
-  std::vector<double> angle;
-  for (int k = 0; k < 1500; ++k) {
-    ASSERT_TRUE(rod.Step(2e-4, a, released).converged);
-    const Eigen::Quaterniond q = rod.pose(20).q;
-    angle.push_back(2 * std::atan2(q.z(), q.w()));
-  }
-  const Ringing heard = Listen(angle, 2e-4);
-  const double J = kDisc + model.section.rhoJ.z() * kLength / 3;
-  const double w_squared = kGJ / (kLength * J), delta = (kEta / kLength + kD_E) / (2 * J);
-  EXPECT_NEAR(heard.Omega * heard.Omega + heard.delta * heard.delta, w_squared,
-              2 * kRelative * w_squared);
-  EXPECT_NEAR(heard.delta, delta, kRelative * delta);
 }
 
 TEST(EndsTest, ACantileverWithATipMassSwingsAsRayleighSays) {

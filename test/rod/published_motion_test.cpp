@@ -1,7 +1,7 @@
 // Published large motions, through the public interface.
 #include <gtest/gtest.h>
 
-#include "rod/rod_cases.h"
+#include "rod/published_rods.h"
 #include "rod/validation.h"
 
 namespace cosserat_cable::rod {
@@ -13,22 +13,9 @@ TEST(PublishedMotion, RubberRodPendulum) {
   // Lang, Linn and Arnold 2011: a rubber rod, pinned at one end, dropped from the horizontal.
   constexpr double kWithin = 0.01;  // of the length
   constexpr int kElements = 40;
-  constexpr double kDt = 5e-4, kRadius = 5e-3, kE = 5e6, kG = kE / 3, kRho = 1100;
-  const double A = M_PI * kRadius * kRadius, I = A * kRadius * kRadius / 4;
-  RodModel model;
-  model.length = 1;
-  model.elements = kElements;
-  model.section.C_F = {kG * A, kG * A, kE * A};
-  model.section.C_M = {kE * I, kE * I, 2 * kG * I};
-  model.section.V_F.setZero();
-  model.section.V_M.setZero();
-  model.section.rhoA = kRho * A;
-  model.section.rhoJ = {kRho * I, kRho * I, 2 * kRho * I};
-  model.a = EndModel::Pinned();
-  model.b = EndModel::Free();
-  Rod rod(model);
-  const Pose pin = Facing(Vector3d::Zero(), Vector3d::UnitX());
-  rod.SetConfiguration(StraightShape(pin, 1.0, kElements));
+  constexpr double kDt = 5e-4;
+  Rod rod = RubberRodPendulum(kElements);
+  const Pose pin = rod.pose(0);
   const double at[] = {0.3, 0.5, 0.7};
   const double x[] = {0.798, -0.233, -0.863}, z[] = {-0.425, -0.920, -0.502};
   int next = 0;

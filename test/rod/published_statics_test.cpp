@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "cosserat_cable/rod/point_loads.h"
-#include "rod/rod_cases.h"
+#include "rod/published_rods.h"
 #include "rod/validation.h"
 
 namespace cosserat_cable::rod {
@@ -10,18 +10,11 @@ namespace {
 
 using Eigen::Vector3d;
 
-RodModel Inextensible(double EI, int elements) {
-  RodModel model = RoundCable(1.0, 0.01, 0.1, EI, 0.75 * EI, 0, 0, elements);
-  model.section.C_F.setConstant(1e6);  // neither shear nor stretch in the reference
-  model.gravity.setZero();
-  return model;
-}
-
 TEST(PublishedStatics, EndMomentRollUp) {
   constexpr double kWithin = 1e-8;  // of the length: constant curvature is exact in this element
   constexpr int kElements = 40;
   for (int turns : {1, 2}) {
-    RodModel model = Inextensible(0.02, kElements);
+    RodModel model = InextensibleRod(0.02, kElements);
     model.b = EndModel::Free();
     Rod rod(model);
     rod.SetConfiguration(StraightShape(Pose{}, 1.0, kElements));
@@ -46,14 +39,14 @@ TEST(PublishedStatics, ElasticaCantilever) {
   const double load[] = {1, 2, 5, 10};
   const double w[] = {0.30172, 0.49346, 0.71379, 0.81061};
   const double u[] = {0.05643, 0.16064, 0.38763, 0.55500};
-  RodModel model = Inextensible(0.02, kElements);
+  RodModel model = InextensibleRod(0.02, kElements);
   model.b = EndModel::Free();
   for (int k = 0; k < 4; ++k) {
     Rod rod(model);
     rod.SetConfiguration(StraightShape(Pose{}, 1.0, kElements));
     const PointLoads force(1.0, {{1.0, {0.02 * load[k], 0, 0}}});
     ASSERT_TRUE(rod.Equilibrate(&force).converged);
-    const std::string name = "elastica, P L^2/EI = " + std::to_string(static_cast<int>(load[k]));
+    const std::string name = "elastica, P L^2/EI = " + Shown(load[k]);
     const char* source = "Mattiasson 1981";
     const Vector3d tip = rod.pose(kElements).p;
     Validate({"Statics", name + ": w/L", source, w[k], tip.x(), kWithin, kElements});
@@ -64,34 +57,10 @@ TEST(PublishedStatics, ElasticaCantilever) {
 TEST(PublishedStatics, BendOfFortyFiveDegrees) {
   constexpr double kWithin = 1e-3;  // of the position
   const Vector3d target(15.685, 47.150, 53.475);
-  constexpr double kRadius = 100, kAngle = M_PI / 4;
   constexpr int kElements = 64;
-  RodModel model;
-  model.length = kRadius * kAngle;
-  model.elements = kElements;
-  model.section.C_F = {5e6, 5e6, 1e7};
-  model.section.C_M = {1e7 / 12, 1e7 / 12, 8.333e5};
-  model.section.V_F.setZero();
-  model.section.V_M.setZero();
-  model.section.rhoA = 1;
-  model.section.rhoJ.setOnes();
-  model.section.kappa0 = {0, 1 / kRadius, 0};
-  model.gravity.setZero();
-  model.b = EndModel::Free();
-  // In the x-y plane, from the origin along y, bending towards x.
-  std::vector<Pose> nodes;
-  for (int i = 0; i <= kElements; ++i) {
-    const double phi = kAngle * i / kElements;
-    Eigen::Matrix3d R;
-    R.col(2) = Vector3d(std::sin(phi), std::cos(phi), 0);
-    R.col(0) = Vector3d(std::cos(phi), -std::sin(phi), 0);
-    R.col(1) = R.col(2).cross(R.col(0));
-    nodes.push_back({Vector3d(kRadius * (1 - std::cos(phi)), kRadius * std::sin(phi), 0),
-                     Eigen::Quaterniond(R)});
-  }
-  Rod rod(model);
-  rod.SetConfiguration(nodes);
-  const PointLoads force(model.length, {{model.length, {0, 0, 600}}});
+  Rod rod = FortyFiveDegreeBend(kElements);
+  const double length = rod.model().length;
+  const PointLoads force(length, {{length, {0, 0, 600}}});
   ASSERT_TRUE(rod.Equilibrate(&force).converged);
   const Vector3d tip = rod.pose(kElements).p;
   for (int k = 0; k < 3; ++k)
@@ -126,8 +95,7 @@ TEST(PublishedStatics, PrincetonBeam) {
     rod.SetConfiguration(StraightShape(Pose{}, kL, kElements));
     const PointLoads force(kL, {{kL, {load[k], 0, 0}}});
     ASSERT_TRUE(rod.Equilibrate(&force).converged);
-    Validate({"Statics", "Princeton beam, flat, " + std::to_string(load[k]).substr(0, 6) +
-                             " N: tip deflection [m]",
+    Validate({"Statics", "Princeton beam, flat, " + Shown(load[k]) + " N: tip deflection [m]",
               "Dowell and Traybar 1975, geometrically exact solution", target[k],
               rod.pose(kElements).p.x(), kWithin * target[k], kElements});
   }
@@ -140,13 +108,12 @@ TEST(PublishedStatics, CollinearClampedArch) {
   const double rise[] = {0.1401, 0.1949, 0.2663, 0.3143, 0.3733};
   const double force[] = {40.49, 41.57, 43.92, 46.61, 53.27};
   for (int k = 0; k < 5; ++k) {
-    Rod rod(Inextensible(0.02, kElements));
+    Rod rod(InextensibleRod(0.02, kElements));
     Pose b;
     b.p.z() = 1 - shortening[k];
     rod.SetConfiguration(BowedShape(Pose{}, b, 1.0, kElements, Vector3d::Zero()));
     ASSERT_TRUE(rod.Equilibrate().converged);
-    const std::string name =
-        "clamped arch, end shortening " + std::to_string(shortening[k]).substr(0, 4) + " L";
+    const std::string name = "clamped arch, end shortening " + Shown(shortening[k]) + " L";
     const Vector3d middle = rod.pose(kElements / 2).p;
     Validate({"Statics", name + ": rise/L", "inextensible elastica", rise[k],
               std::hypot(middle.x(), middle.y()), kWithin * rise[k], kElements});

@@ -11,15 +11,22 @@
 namespace cosserat_cable::rod {
 
 struct ValidationRow {
-  std::string section;   ///< of the table: statics, vibration, motion, numerics
-  std::string what;      ///< the case and the quantity, with its unit
-  std::string source;    ///< where the target is from
+  std::string section;  ///< of the table: statics, vibration, motion, numerics
+  std::string what;     ///< the case and the quantity, with its unit
+  std::string source;   ///< where the target is from
   double target;
   double ours;
-  double tolerance;      ///< largest |ours - target| allowed
+  double tolerance;  ///< largest |ours - target| allowed
   int elements;
-  double dt = 0;         ///< [s]; 0: statics or modal analysis
+  double dt = 0;  ///< [s]; 0: statics or modal analysis
 };
+
+/// A number as part of a row's name.
+inline std::string Shown(double x) {
+  char text[32];
+  std::snprintf(text, sizeof(text), "%.5g", x);
+  return text;
+}
 
 /// Fails where the row is beyond its tolerance; records it in any case.
 inline void Validate(const ValidationRow& row) {
