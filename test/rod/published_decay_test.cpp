@@ -46,7 +46,8 @@ Ringing FreeDecay(double EI, double eta_EI, int elements, double dt, double half
 }
 
 TEST(PublishedDecay, EquationElevenGivesBackWhatWasPutIn) {
-  constexpr double kWithin = 5e-3;  // shear and rotary inertia 1e-3, (w dt)^2/12 1e-5
+  // Shear and rotary inertia 1e-3, (w dt)^2/12 1e-5.
+  constexpr double kWithin = 5e-3, kStiffnessWithin = 4e-3;
   constexpr double kEI = 0.02, kEta = 2e-5, kDt = 5e-4;
   constexpr int kElements = 40;
   const Ringing heard = FreeDecay(kEI, kEta, kElements, kDt, 21);
@@ -54,19 +55,24 @@ TEST(PublishedDecay, EquationElevenGivesBackWhatWasPutIn) {
   Validate({"Vibration", "decay of a cantilever: recovered eta_EI [N m^2 s]", source, kEta,
             2 * heard.delta * BendingFactor(), kWithin * kEta, kElements, kDt});
   Validate({"Vibration", "decay of a cantilever: recovered EI [N m^2]", source, kEI,
-            heard.w() * heard.w() * BendingFactor(), kWithin * kEI, kElements, kDt});
+            heard.w() * heard.w() * BendingFactor(), kStiffnessWithin * kEI, kElements, kDt});
 }
 
 TEST(PublishedDecay, TheIntegratorAddsNoDamping) {
   // The damping that users see must be the one they put in. The vertex of a parabola through
   // samples 0.3 rad apart is good to 1e-4 of the amplitude: over 100 half periods 3e-7.
   constexpr double kWithin = 1e-5;  // of critical
+  // Generalised-alpha with rho = 0.9 has 6e-7 at 32 Hz and 1 ms.
+  constexpr double kAtThirtyTwo = 2e-6;
   constexpr int kElements = 20;
   for (const int hertz : {10, 32, 50})
     for (const double dt : {1e-3, 5e-4}) {
       const double w = 2 * M_PI * hertz, EI = w * w * BendingFactor();
       const Ringing heard = FreeDecay(EI, 0, kElements, dt, 200);
-      EXPECT_NEAR(heard.w(), w, 0.012 * w);  // (w dt)^2/12 lowers it by 0.8 % at most
+      EXPECT_NEAR(heard.w(), w, 0.01 * w);  // (w dt)^2/12 lowers it by 0.8 % at most
+      if (hertz == 32) {
+        EXPECT_LT(std::abs(heard.zeta()), kAtThirtyTwo);
+      }
       Validate({"Numerics",
                 "damping ratio of an undamped beam at " + std::to_string(hertz) + " Hz, dt " +
                     (dt == 1e-3 ? "1" : "0.5") + " ms",
