@@ -10,6 +10,8 @@ namespace {
 constexpr double kSeriesAngle = 0.3;
 // Below this sin^2 of half the angle a series gives the logarithm in a fraction of atan2's time.
 constexpr double kSmallSineSquared = 1e-3;
+// Below this length the sum of two unit vectors is rounding.
+constexpr double kOpposite = 1e-14;
 
 /// a = (1 - cos t)/t^2 and b = (t - sin t)/t^3, with a' = (da/dt)/t and b' = (db/dt)/t, which stay
 /// finite at t = 0.
@@ -85,6 +87,21 @@ Eigen::Vector3d RotationLog(const Eigen::Quaterniond& q) {
   }
   const double sine = std::sqrt(x);
   return q.vec() * (sign * 2 * std::atan2(sine, sign * q.w()) / sine);
+}
+
+Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d a = from.normalized(), sum = a + to.normalized();
+  Eigen::Quaterniond q;
+  if (sum.norm() < kOpposite) {
+    q.w() = 0;
+    q.vec() = a.unitOrthogonal();
+  } else {
+    // A vector and the half of the way: half the angle is between them.
+    const Eigen::Vector3d half = sum.normalized();
+    q.w() = a.dot(half);
+    q.vec() = a.cross(half);
+  }
+  return q.normalized();
 }
 
 Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& phi) {

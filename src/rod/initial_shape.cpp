@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/math/rotation.h"
+
 namespace cosserat_cable::rod {
 namespace {
 
@@ -101,8 +103,7 @@ std::vector<Pose> BowedShape(const Pose& a, const Pose& b, double length, int el
   // Frames without twist, then the rest of the twist spread evenly.
   nodes.front().q = a.q;
   for (int i = 1; i <= elements; ++i)
-    nodes[i].q =
-        (Quaterniond::FromTwoVectors(tangents[i - 1], tangents[i]) * nodes[i - 1].q).normalized();
+    nodes[i].q = (ShortestTurn(tangents[i - 1], tangents[i]) * nodes[i - 1].q).normalized();
   const Quaterniond rest = nodes.back().q.conjugate() * b.q;
   double twist = 2 * std::atan2(rest.z(), rest.w());
   twist = std::remainder(twist, 2 * M_PI);

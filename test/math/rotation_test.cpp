@@ -86,6 +86,24 @@ TEST(Rotation, LogIsTheShortestBeyondHalfATurn) {
   EXPECT_NEAR(RotationLog(Quaterniond(0, 1, 0, 0)).norm(), M_PI, kRounding);
 }
 
+TEST(Rotation, ShortestTurnTurnsWithoutTwist) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 100; ++i) {
+    const Vector3d from(normal(random), normal(random), normal(random));
+    const Vector3d other(normal(random), normal(random), normal(random));
+    for (const Vector3d& to : {other, from, Vector3d(-from), Vector3d(-from + 1e-9 * other)}) {
+      const Quaterniond q = ShortestTurn(from, to);
+      EXPECT_NEAR(q.norm(), 1, kRounding);
+      // Of nearly opposite directions half of the way is a small difference.
+      const double half = (from.normalized() + to.normalized()).norm();
+      const double within = half > 0 ? 10 * kRounding / half : kRounding;
+      EXPECT_LT((q * from.normalized() - to.normalized()).norm(), within);
+      EXPECT_NEAR(q.vec().dot(from), 0, kRounding * from.norm());
+    }
+  }
+}
+
 TEST(Rotation, RightJacobianIsItsSeries) {
   constexpr double kSeriesRounding = 1e-13;
   for (const Vector3d& phi : Samples(6.5)) {

@@ -112,8 +112,7 @@ double Growth(double M, double P) {
                  d = std::sin(M * s / 2), f = std::sin(M_PI * s), df = M_PI * std::cos(M_PI * s);
     nodes[i].p += kAmplitude * f * Vector3d(c, d, 0);
     const Vector3d slope = kAmplitude * (df * Vector3d(c, d, 0) + M / 2 * f * Vector3d(-d, c, 0));
-    nodes[i].q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitZ() + slope) *
-                 nodes[i].q;
+    nodes[i].q = ShortestTurn(Vector3d::UnitZ(), Vector3d::UnitZ() + slope) * nodes[i].q;
   }
   const Pose a, b = {nodes.back().p, Eigen::Quaterniond::Identity()};
   Rod rod(model);

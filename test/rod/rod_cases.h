@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/rod/initial_shape.h"
 #include "cosserat_cable/rod/rod.h"
 
@@ -53,7 +54,7 @@ inline RodModel RoundCable(double length, double diameter, double rhoA, double E
 }
 
 inline Pose Facing(const Eigen::Vector3d& p, const Eigen::Vector3d& a3) {
-  return {p, Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), a3)};
+  return {p, ShortestTurn(Eigen::Vector3d::UnitZ(), a3)};
 }
 
 }  // namespace cosserat_cable::rod

@@ -16,6 +16,10 @@ Eigen::Quaterniond RotationExp(const Eigen::Vector3d& phi);
 /// The shortest phi [rad], |phi| <= pi, with RotationExp(phi) = q or -q. @pre q has unit length
 Eigen::Vector3d RotationLog(const Eigen::Quaterniond& q);
 
+/// The smallest rotation that turns `from` to point along `to`, of any lengths but zero; by half a
+/// turn about some axis across them where they are opposite.
+Eigen::Quaterniond ShortestTurn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
 /// J_r(phi) with omega = J_r(phi) phi'.
 Eigen::Matrix3d RightJacobian(const Eigen::Vector3d& phi);
 
