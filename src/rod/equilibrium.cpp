@@ -1,7 +1,9 @@
 // Static equilibrium: Newton's method on the potential energy, made to descend by a shift of the
-// Hessian where it is not positive definite, and by a line search.
+// Hessian where it is not positive definite, and by a line search; from afar, first of a rod that
+// stretches more easily.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "lane_view.h"
 #include "rod_impl.h"
@@ -11,10 +13,13 @@
 namespace cosserat_cable::rod {
 namespace {
 
-constexpr int kMaxIterations = 300;
+constexpr int kMaxIterations = 300;   // at each stiffness
 constexpr double kTolerance = 1e-10;  // of the correction, relative to the length and in rad
-constexpr double kMaxTurn = 0.4;      // rad of one node in one iteration
-constexpr double kMaxMove = 0.1;      // of the length, likewise
+// Below, energies differ by less than their rounding (its square is 1e-14): the step is Newton's,
+// and a correction that no longer falls is rounding too.
+constexpr double kEnergyBlind = 1e-7;
+constexpr double kMaxTurn = 0.4;  // rad of one node in one iteration
+constexpr double kMaxMove = 0.1;  // of the length, likewise
 constexpr double kSufficientDecrease = 1e-4;
 constexpr double kFirstShift = 1e-3;     // in units of the bending stiffness of one element
 constexpr double kSmallestShift = 1e-7;  // below, none
@@ -25,26 +30,28 @@ constexpr double kEnergyNoise = 1e-13;
 // Strains below are rounding: a rod without any load has no energy to compare with.
 constexpr double kStrainNoise = 1e-10;
 
+// Turning nodes along straight lines stretches the elements between them, by half the square of the
+// turn: the stiffer the rod, the shorter Newton's steps. So the shape is found with a rod in which
+// stretching costs little more than bending, which is then stiffened.
+constexpr double kSoftBending = 1e3;  // C_F of that rod at least, in C_M / length^2
+constexpr double kSoftWeight = 30;    // the same, in weights of the rod
+constexpr double kStiffening = 10;    // from one rod to the next
+constexpr double kStageTolerance = 1e-3;
+constexpr int kStageIterations = 60;
+
 }  // namespace
 
-SolveReport Rod::Equilibrate(const Load* load) {
-  Impl& m = *impl_;
-  const int first = m.first_free(), last = m.last_free();
-  for (NodeState& n : m.w.node) n.v = n.omega = V3{};
-  for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
-  m.w.trial = m.w.node;
-  ImposeEnds(m.ends, &m.w);
-  m.PrepareStatics();
+SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load* load) {
+  const int first = first_free(), last = last_free();
+  const double bending = std::min(w.law.C_M.x, w.law.C_M.y);
+  const double rotation_scale = bending / h;               // [N m]
+  const double translation_scale = bending / (h * h * h);  // [N/m]
 
-  const double bending = std::min(m.w.law.C_M.x, m.w.law.C_M.y);
-  const double rotation_scale = bending / m.h;                   // [N m]
-  const double translation_scale = bending / (m.h * m.h * m.h);  // [N/m]
-
-  const LaneView<double> view(&m.w, 0);
-  const double unstrained_noise = kStrainNoise * kStrainNoise * m.w.law.C_F.z * m.model.length;
+  const LaneView<double> view(&w, 0);
+  const double unstrained_noise = kStrainNoise * kStrainNoise * w.law.C_F.z * model.length;
   double noise = 0;
   const auto energy = [&] {
-    const double strain = m.StaticEnergy(), gravity = m.GravityEnergy(m.w.trial);
+    const double strain = StaticEnergy(), gravity = GravityEnergy(w.trial);
     const double outside = load ? load->Energy(view) : 0.0;
     noise = kEnergyNoise * (strain + std::abs(gravity) + std::abs(outside)) + unstrained_noise;
     return strain + gravity + outside;
@@ -54,73 +61,110 @@ SolveReport Rod::Equilibrate(const Load* load) {
   const bool descends = !load || load->HasPotential();
   SolveReport report;
   double shift = 0;
-  EvaluateForces(&m.w);
+  EvaluateForces(&w);
   double current = energy();
   std::vector<NodeState> start;
   std::vector<Vec6<double>> internal, gradient;  // minus the energy's, without and with the load
-  while (report.iterations < kMaxIterations) {
+  while (report.iterations < max_iterations) {
     ++report.iterations;
     // Newton direction, with the smallest shift that makes the Hessian positive definite.
-    internal = m.w.rhs;
+    internal = w.rhs;
     for (;;) {
-      m.w.rhs = internal;
-      AssembleTangent(0.0, &m.w);
-      if (load) AddLoad(*load, 0, true, 0.0, &m.w);
-      ConstrainEnds(m.ends, &m.w);
+      w.rhs = internal;
+      AssembleTangent(0.0, &w);
+      if (load) AddLoad(*load, 0, true, 0.0, &w);
+      ConstrainEnds(ends, &w);
       for (int i = first; i <= last; ++i)
         for (int k = 0; k < 3; ++k) {
-          m.w.system.diagonal(i)[k][k] += shift * translation_scale;
-          m.w.system.diagonal(i)[3 + k][3 + k] += shift * rotation_scale;
+          w.system.diagonal(i)[k][k] += shift * translation_scale;
+          w.system.diagonal(i)[3 + k][3 + k] += shift * rotation_scale;
         }
       double pivot;
-      Factorise(first, last, &m.w, &pivot);
+      Factorise(first, last, &w, &pivot);
       if (pivot > 0 || !descends) break;
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
     }
-    gradient = m.w.rhs;
-    Solve(&m.w);
-    const CorrectionSize<double> size = MeasureCorrection(first, last, m.w);
-    report.correction = std::max(size.translation / m.model.length, size.rotation);
+    gradient = w.rhs;
+    Solve(&w);
+    const CorrectionSize<double> size = MeasureCorrection(first, last, w);
+    const double last_correction =
+        report.iterations > 1 ? report.correction : std::numeric_limits<double>::infinity();
+    report.correction = std::max(size.translation / model.length, size.rotation);
     if (!std::isfinite(size.sum)) return report;
+    // A little shift may stay: a shape that can be turned freely has a singular Hessian.
+    const bool near = shift <= kFirstShift && report.correction < kEnergyBlind;
+    const bool rounding =
+        near && last_correction < kEnergyBlind && report.correction >= last_correction;
 
     double slope = 0;
     for (int i = first; i <= last; ++i)
       for (int k = 0; k < 3; ++k) {
-        slope -= gradient[i][k] * m.w.rhs[i][k] + gradient[i][3 + k] * m.w.rhs[i][3 + k];
+        slope -= gradient[i][k] * w.rhs[i][k] + gradient[i][3 + k] * w.rhs[i][3 + k];
       }
     const double longest =
-        std::max(size.rotation / kMaxTurn, size.translation / m.model.length / kMaxMove);
-    const std::vector<Vec6<double>> direction = m.w.rhs;
-    start = m.w.trial;
+        std::max(size.rotation / kMaxTurn, size.translation / model.length / kMaxMove);
+    const std::vector<Vec6<double>> direction = w.rhs;
+    start = w.trial;
     double fraction = longest > 1 ? 1 / longest : 1.0;
     bool accepted = false;
     for (int halving = 0; halving < kMaxHalvings && !accepted; ++halving, fraction *= 0.5) {
       for (int i = first; i <= last; ++i) {
         const Vec6<double>& d = direction[i];
-        m.w.trial[i].r = start[i].r + fraction * V3{d[0], d[1], d[2]};
-        m.w.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
+        w.trial[i].r = start[i].r + fraction * V3{d[0], d[1], d[2]};
+        w.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
       }
-      ImposeEnds(m.ends, &m.w);
-      EvaluateForces(&m.w);
+      ImposeEnds(ends, &w);
+      EvaluateForces(&w);
       const double next = energy();
-      accepted = !descends || next <= current + kSufficientDecrease * fraction * slope + noise;
+      accepted =
+          !descends || near || next <= current + kSufficientDecrease * fraction * slope + noise;
       if (accepted) current = next;
     }
     if (!accepted) {
-      m.w.trial = start;
-      EvaluateForces(&m.w);
+      w.trial = start;
+      EvaluateForces(&w);
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
       continue;
     }
-    // A little shift may stay: a shape that can be turned freely has a singular Hessian.
-    if (shift <= kFirstShift && report.correction < kTolerance) {
+    if (rounding || (shift <= kFirstShift && report.correction < tolerance)) {
       report.converged = true;
       break;
     }
     shift = shift > kSmallestShift ? shift / 8 : 0.0;
   }
+  return report;
+}
+
+SolveReport Rod::Equilibrate(const Load* load) {
+  Impl& m = *impl_;
+  for (NodeState& n : m.w.node) n.v = n.omega = V3{};
+  for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
+  m.w.trial = m.w.node;
+  ImposeEnds(m.ends, &m.w);
+  m.PrepareStatics();
+
+  const double length = m.model.length;
+  const V3 C_F = m.w.law.C_F, C_M = m.w.law.C_M;
+  const double weight = m.model.section.rhoA * length * std::sqrt(Dot(m.w.gravity, m.w.gravity));
+  const std::vector<NodeState> from = m.w.trial;
+  SolveReport report;
+  report.converged = true;
+  for (double soft = std::max(kSoftBending * std::max(C_M.x, C_M.y) / (length * length),
+                              kSoftWeight * weight);
+       soft < C_F.z && report.converged; soft *= kStiffening) {
+    m.w.law.C_F = {std::min(C_F.x, soft), std::min(C_F.y, soft), soft};
+    const int before = report.iterations;
+    report = m.Minimise(kStageTolerance, kStageIterations, load);
+    report.iterations += before;
+  }
+  // Without bending stiffness worth the name, the soft rod's tension bends the stiffer one zigzag.
+  if (!report.converged) m.w.trial = from;
+  m.w.law.C_F = C_F;
+  const int before = report.iterations;
+  report = m.Minimise(kTolerance, kMaxIterations, load);
+  report.iterations += before;
   if (!report.converged) return report;
 
   // At the clamps, what is left of the forces is what they must supply.

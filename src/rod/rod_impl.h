@@ -52,6 +52,9 @@ struct Rod::Impl {
   int last_free() const { return model.b.clamped() ? w.count - 2 : w.count - 1; }
 
   void PrepareStatics();
+  /// Minimises the energy of the rod with the law in `w` by moving its iterate, until a correction
+  /// is below `tolerance`.
+  SolveReport Minimise(double tolerance, int max_iterations, const Load* load);
   /// The section law over a step of `dt` [s], without the elements' offsets.
   ElementLaw<double> LawOfStep(double dt);
   /// Of shear along a1 and a2, stretch, bending about a1 and a2, and twist.
