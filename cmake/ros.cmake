@@ -20,6 +20,7 @@ find_package(catkin REQUIRED COMPONENTS
   visualization_msgs
 )
 find_package(CLI11 REQUIRED)
+find_package(TBB REQUIRED)
 
 add_message_files(DIRECTORY msg FILES ApexTelemetry.msg)
 generate_messages(DEPENDENCIES std_msgs)
@@ -49,7 +50,7 @@ target_include_directories(cosserat_cable_ros PUBLIC include)
 target_include_directories(cosserat_cable_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(cosserat_cable_ros PUBLIC cosserat_cable_cable cosserat_cable_vehicle
-  ${catkin_LIBRARIES} Threads::Threads)
+  ${catkin_LIBRARIES} TBB::tbb Threads::Threads)
 
 foreach(room ${rooms})
   get_target_property(type ${room} TYPE)

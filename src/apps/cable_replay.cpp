@@ -10,6 +10,8 @@ int main(int argc, char** argv) {
   app.add_option("--output", options.output, "bag to be written")->required();
   app.add_option("--json", options.json, "file for the summary's numbers");
   app.add_option("--dt", engine.dt, "time step [s]")->capture_default_str();
+  app.add_option("--threads", engine.threads, "0: one per core; the results are the same")
+      ->capture_default_str();
   app.add_option("--telemetry-rate", engine.telemetry_rate, "[Hz]")->capture_default_str();
   app.add_option("--marker-rate", engine.marker_rate, "[Hz]; 0: none")->capture_default_str();
   app.add_option("--amplitude-window", engine.amplitude_window, "[s]")->capture_default_str();

@@ -15,6 +15,7 @@ struct CableFleet::Impl {
   struct Group {
     std::vector<std::size_t> members;
     std::optional<rod::RodBatch> batch;
+    std::vector<rod::RodDrive> drives;
   };
 
   std::vector<CableSimulation*> cables;
@@ -30,8 +31,6 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
     const rod::RodModel& rod = cables[i]->impl_->rod.model();
     alike[{rod.elements, rod.a.clamped(), rod.b.clamped()}].push_back(i);
   }
-  impl_->groups.reserve(cables.size());  // batches stay where they are while others share with them
-  const rod::RodBatch* last_batch = nullptr;
   for (const auto& [kind, members] : alike)
     for (std::size_t first = 0; first < members.size(); first += rod::RodBatch::kMaxRods) {
       const std::size_t last = std::min(members.size(), first + rod::RodBatch::kMaxRods);
@@ -40,49 +39,64 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
       if (group.members.size() > 1) {
         std::vector<rod::Rod*> rods;
         for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
-        group.batch.emplace(rods, last_batch);
+        group.batch.emplace(rods);
+        group.drives.resize(rods.size());
       }
       impl_->groups.push_back(std::move(group));
-      if (impl_->groups.back().batch) last_batch = &*impl_->groups.back().batch;
     }
 }
 CableFleet::~CableFleet() = default;
 CableFleet::CableFleet(CableFleet&&) noexcept = default;
 CableFleet& CableFleet::operator=(CableFleet&&) noexcept = default;
 
-std::vector<StepOutcome> CableFleet::Step(double dt, const std::vector<const Surroundings*>& then) {
-  std::vector<StepOutcome> outcomes(impl_->cables.size());
-  for (Impl::Group& group : impl_->groups) {
-    if (!group.batch) {
-      const std::size_t i = group.members.front();
-      if (then[i]) outcomes[i] = impl_->cables[i]->Step(dt, *then[i]);
+std::size_t CableFleet::group_count() const { return impl_->groups.size(); }
+const std::vector<std::size_t>& CableFleet::members(std::size_t group) const {
+  return impl_->groups[group].members;
+}
+
+void CableFleet::StepGroup(std::size_t index, double dt,
+                           const std::vector<const Surroundings*>& then,
+                           std::vector<StepOutcome>* outcomes) {
+  Impl::Group& group = impl_->groups[index];
+  if (!group.batch) {
+    if (then[0]) (*outcomes)[0] = impl_->cables[group.members[0]]->Step(dt, *then[0]);
+    return;
+  }
+  for (std::size_t k = 0; k < group.members.size(); ++k) {
+    group.drives[k] = {};
+    if (!then[k]) continue;
+    if (!IsFinite(*then[k])) {
+      (*outcomes)[k] = RefuseNonFinite();
       continue;
     }
-    std::vector<rod::RodDrive> drives(group.members.size());
-    for (std::size_t k = 0; k < drives.size(); ++k) {
-      const std::size_t i = group.members[k];
-      if (!then[i]) continue;
-      if (!IsFinite(*then[i])) {
-        outcomes[i] = RefuseNonFinite();
-        continue;
-      }
-      CableSimulation::Impl& cable = *impl_->cables[i]->impl_;
-      cable.SearchContact(dt, *then[i]);
-      drives[k] = {&then[i]->a.X, &then[i]->b.X, cable.load()};
-    }
-    const std::vector<rod::SolveReport> reports = group.batch->Step(dt, drives);
-    for (std::size_t k = 0; k < drives.size(); ++k) {
-      if (!drives[k].a) continue;
-      const std::size_t i = group.members[k];
-      CableSimulation::Impl& cable = *impl_->cables[i]->impl_;
-      outcomes[i].iterations = reports[k].iterations;
-      if (reports[k].converged)
-        cable.Accept(*then[i]);
-      else
-        outcomes[i] = cable.StepInParts(dt, *then[i], reports[k].iterations);
+    CableSimulation::Impl& cable = *impl_->cables[group.members[k]]->impl_;
+    cable.SearchContact(dt, *then[k]);
+    group.drives[k] = {&then[k]->a.X, &then[k]->b.X, cable.load()};
+  }
+  const std::vector<rod::SolveReport>& reports = group.batch->Step(dt, group.drives);
+  for (std::size_t k = 0; k < group.members.size(); ++k) {
+    if (!group.drives[k].a) continue;
+    CableSimulation::Impl& cable = *impl_->cables[group.members[k]]->impl_;
+    if (reports[k].converged) {
+      (*outcomes)[k] = StepOutcome();
+      (*outcomes)[k].iterations = reports[k].iterations;
+      cable.Accept(*then[k]);
+    } else {
+      (*outcomes)[k] = cable.StepInParts(dt, *then[k], reports[k].iterations);
     }
   }
-  return outcomes;
+}
+
+std::vector<StepOutcome> CableFleet::Step(double dt, const std::vector<const Surroundings*>& then) {
+  std::vector<StepOutcome> all(impl_->cables.size());
+  for (std::size_t g = 0; g < group_count(); ++g) {
+    std::vector<const Surroundings*> of_group;
+    for (const std::size_t i : members(g)) of_group.push_back(then[i]);
+    std::vector<StepOutcome> outcomes(of_group.size());
+    StepGroup(g, dt, of_group, &outcomes);
+    for (std::size_t k = 0; k < outcomes.size(); ++k) all[members(g)[k]] = std::move(outcomes[k]);
+  }
+  return all;
 }
 
 }  // namespace cosserat_cable

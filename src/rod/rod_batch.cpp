@@ -7,9 +7,9 @@
 
 namespace cosserat_cable::rod {
 struct RodBatch::Impl {
-  Impl(const std::vector<Rod*>& all, std::shared_ptr<StepChain<Lanes>> memory)
-      : rods(all), chain(std::move(memory)), masses(chain->masses.size()) {
-    for (int l = 0; l < kMaxRods; ++l) OfLane(l).FillMasses(l, chain->layout, &masses);
+  explicit Impl(const std::vector<Rod*>& all)
+      : rods(all), chain(ChainLayout::Side(all.front()->elements())), reports(all.size()) {
+    for (int l = 0; l < kMaxRods; ++l) OfLane(l).FillMasses(l, chain.layout, &chain.masses);
   }
 
   // Lanes without a rod repeat the first one's and are never active.
@@ -18,11 +18,11 @@ struct RodBatch::Impl {
   }
 
   std::vector<Rod*> rods;
-  std::shared_ptr<StepChain<Lanes>> chain;
-  std::vector<NodeMass<Lanes>> masses;  // in the chain during a step
+  StepChain<Lanes> chain;
+  std::vector<SolveReport> reports;
 };
 
-RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
+RodBatch::RodBatch(const std::vector<Rod*>& rods) {
   if (rods.empty() || rods.size() > kMaxRods)
     throw std::invalid_argument("a batch has one to four rods");
   for (const Rod* rod : rods)
@@ -33,19 +33,15 @@ RodBatch::RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing) {
   for (const Rod* rod : rods)
     if (!rod->model().joints.empty())
       throw std::invalid_argument("a rod with joints is stepped by itself");
-  const int elements = rods.front()->elements();
-  auto memory = sharing && sharing->impl_->chain->layout.elements == elements
-                    ? sharing->impl_->chain
-                    : std::make_shared<StepChain<Lanes>>(ChainLayout::Side(elements));
-  impl_ = std::make_unique<Impl>(rods, std::move(memory));
+  impl_ = std::make_unique<Impl>(rods);
 }
 RodBatch::~RodBatch() = default;
 RodBatch::RodBatch(RodBatch&&) noexcept = default;
 RodBatch& RodBatch::operator=(RodBatch&&) noexcept = default;
 
-std::vector<SolveReport> RodBatch::Step(double dt, const std::vector<RodDrive>& drives) {
+const std::vector<SolveReport>& RodBatch::Step(double dt, const std::vector<RodDrive>& drives) {
   Impl& m = *impl_;
-  StepChain<Lanes>& chain = *m.chain;
+  StepChain<Lanes>& chain = m.chain;
   const int count = static_cast<int>(m.rods.size());
   const StepCoefficients c(dt);
   StepOfRod steps[kMaxRods];
@@ -63,14 +59,11 @@ std::vector<SolveReport> RodBatch::Step(double dt, const std::vector<RodDrive>& 
   chain.SetHeld(m.OfLane(0).model.a.clamped(), m.OfLane(0).model.b.clamped());
   Predict(c, states, &chain);
   for (int l = 0; l < kMaxRods; ++l) m.OfLane(l).HoldInChain(l, &chain);
-  std::swap(chain.masses, m.masses);
   SolveStep(c, &chain, steps);
-  std::swap(chain.masses, m.masses);
   const RodState* accepting[kMaxRods] = {};
-  std::vector<SolveReport> reports(count);
   for (int l = 0; l < count; ++l) {
-    reports[l] = steps[l].report;
-    if (!reports[l].converged) {
+    m.reports[l] = steps[l].report;
+    if (!m.reports[l].converged) {
       if (steps[l].active) m.OfLane(l).TakeBackStep();
       continue;
     }
@@ -80,7 +73,7 @@ std::vector<SolveReport> RodBatch::Step(double dt, const std::vector<RodDrive>& 
   Accept(c, chain, accepting);
   for (int l = 0; l < count; ++l)
     if (accepting[l]) m.OfLane(l).AccountForStep(dt, steps[l].load_power);
-  return reports;
+  return m.reports;
 }
 
 }  // namespace cosserat_cable::rod

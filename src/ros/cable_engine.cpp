@@ -1,16 +1,19 @@
 #include "cosserat_cable/ros/cable_engine.h"
 
+#include <oneapi/tbb/task_arena.h>
+#include <oneapi/tbb/task_group.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <set>
+#include <tuple>
 #include <utility>
 
-#include "cosserat_cable/ros/apex_history.h"
 #include "cosserat_cable/ros/conversions.h"
-#include "cosserat_cable/ros/telemetry.h"
 #include "diagnostics.h"
-#include "state_dump.h"
+#include "swaying_cable.h"
 
 namespace cosserat_cable {
 namespace {
@@ -19,6 +22,9 @@ namespace {
 constexpr std::int64_t kWorldGrace = 1'000'000'000;  // [ns]
 // Old samples are let go of this often; each time costs a walk over all edges.
 constexpr std::uint64_t kDropInterval = 100;  // [steps]
+// Cables go so many steps before they wait for each other: far longer than it takes to hand them to
+// threads, and short enough to stay in the cache.
+constexpr std::size_t kBlock = 32;  // [steps]
 // What may pile up while a link is still missing.
 constexpr std::int64_t kWaitingHistory = 10'000'000'000;  // [ns]
 
@@ -28,30 +34,17 @@ std::int64_t Period(double rate) {
 
 }  // namespace
 
-struct CableEngine::Frame {
-  std::string link;
-  Motion motion;  // in the world, at now_
+/// Cables that go through one kernel together, and what they have to tell of the present block.
+struct CableEngine::Group {
+  std::vector<const Surroundings*> then;
+  std::vector<StepOutcome> outcomes;
+  std::vector<Told> told;
 };
 
-struct CableEngine::Cable {
-  Cable(const CableModel& model, std::vector<const Body*> obstacles, const EngineOptions& options,
-        std::int64_t window)
-      : simulation(model, std::move(obstacles), options.gravity_W, options.clearance_reach),
-        history(window) {
-    summary.name = model.name;
-  }
-  const CableModel& model() const { return simulation.model(); }
-
-  CableSimulation simulation;
-  ApexHistory history;
-  std::size_t reference = 0, a = 0, b = 0;  // indices of frames
-  std::vector<std::size_t> obstacles;
-  Eigen::Vector3d rest = Eigen::Vector3d::Zero();  // of the apex, in the reference link [m]
-  bool failed = false;
-  bool shown = false;  // its markers are in the picture
-  std::string message;
-  std::uint64_t held = 0;  // telemetry samples
-  CableSummary summary;
+/// Threads, or the caller's own where there is one.
+struct CableEngine::Threads {
+  explicit Threads(int count) : arena(count > 0 ? count : oneapi::tbb::task_arena::automatic) {}
+  oneapi::tbb::task_arena arena;
 };
 
 std::vector<std::string> EngineOptions::Check() const {
@@ -72,6 +65,7 @@ std::vector<std::string> EngineOptions::Check() const {
           "dt to 60 s");
   require(clearance_reach > 0 && clearance_reach <= 10, "clearance_reach", clearance_reach,
           "more than 0 and at most 10 m");
+  require(threads >= 0 && threads <= 256, "threads", threads, "0 (one per core) to 256");
   require(links.max_gap > 0 && links.max_gap <= 10, "max_gap", links.max_gap,
           "more than 0 and at most 10 s");
   require(markers.curvature_scale >= 0 && std::isfinite(markers.curvature_scale), "curvature_scale",
@@ -105,7 +99,8 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
       marker_period_(Period(options_.marker_rate)),
       diagnostics_period_(Period(options_.diagnostics_rate)),
       vehicle_root_(vehicle.root),
-      links_(vehicle, NeededLinks(cables), options_.links) {
+      links_(vehicle, NeededLinks(cables), options_.links),
+      threads_(std::make_unique<Threads>(options_.threads)) {
   for (const CableModel& model : cables) {
     std::vector<const Body*> obstacles;
     std::vector<std::size_t> frames;
@@ -115,26 +110,28 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
       obstacles.push_back(body->second.get());
       frames.push_back(FrameIndex(link));
     }
-    cables_.emplace_back(model, obstacles, options_, Period(1 / options_.amplitude_window));
-    Cable& cable = cables_.back();
-    cable.obstacles = std::move(frames);
-    cable.reference = FrameIndex(model.reference);
-    cable.a = FrameIndex(model.a.link);
-    cable.b = FrameIndex(model.b.link);
+    cables_.push_back(std::make_unique<SwayingCable>(
+        model, obstacles,
+        SwayingCable::Frames{FrameIndex(model.reference), FrameIndex(model.a.link),
+                             FrameIndex(model.b.link), frames},
+        cables_.size(), options_));
   }
   std::vector<CableSimulation*> simulations;
-  for (Cable& cable : cables_) simulations.push_back(&cable.simulation);
+  for (const auto& cable : cables_) simulations.push_back(cable->simulation());
   fleet_ = std::make_unique<CableFleet>(simulations);
-  surroundings_.resize(cables_.size());
+  groups_.resize(fleet_->group_count());
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    groups_[g].then.resize(fleet_->members(g).size());
+    groups_[g].outcomes.resize(fleet_->members(g).size());
+  }
 }
 
 CableEngine::~CableEngine() = default;
 
 std::size_t CableEngine::FrameIndex(const std::string& link) {
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    if (frames_[i].link == link) return i;
-  }
-  frames_.push_back({link, Motion()});
+  const auto found = std::find(frames_.begin(), frames_.end(), link);
+  if (found != frames_.end()) return static_cast<std::size_t>(found - frames_.begin());
+  frames_.push_back(link);
   return frames_.size() - 1;
 }
 
@@ -149,16 +146,26 @@ void CableEngine::Finish() {
   finished_ = true;
 }
 
-void CableEngine::EvaluateFrames(std::int64_t time) {
-  for (Frame& frame : frames_) frame.motion = links_.Follow(frame.link, time);
+CableEngine::Instant CableEngine::Follow(std::int64_t time) {
+  Instant instant;
+  instant.time = time;
+  instant.telemetry = Due(telemetry_period_, time);
+  instant.markers = send_markers_ && Due(marker_period_, time);
+  for (const std::string& link : frames_) {
+    instant.frames.push_back(links_.Follow(link, time));
+    instant.in_gap.push_back(instant.telemetry && links_.InGap(link, time));
+  }
+  return instant;
 }
 
-Surroundings CableEngine::SurroundingsOf(const Cable& cable) const {
-  Surroundings now;
-  now.a = frames_[cable.a].motion * Motion::Resting(cable.model().a.X_LC);
-  now.b = frames_[cable.b].motion * Motion::Resting(cable.model().b.X_LC);
-  for (const std::size_t i : cable.obstacles) now.obstacles.push_back(frames_[i].motion);
-  return now;
+// Up to the next diagnostics: they tell of what all cables did until then.
+void CableEngine::FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block) {
+  block->clear();
+  while (from + dt_ <= ready && block->size() < kBlock) {
+    from += dt_;
+    block->push_back(Follow(from));
+    if (Due(diagnostics_period_, from)) break;
+  }
 }
 
 bool CableEngine::Start(OutputSink* sink) {
@@ -174,75 +181,20 @@ bool CableEngine::Start(OutputSink* sink) {
   const std::int64_t start = (begin + dt_ - 1) / dt_ * dt_;
   if (start > ready) return false;
   now_ = start;
-  EvaluateFrames(now_);
-  for (Cable& cable : cables_) Settle(&cable);
+  const Instant rest = Follow(now_);
+  threads_->arena.execute([&] {
+    oneapi::tbb::task_group settling;
+    for (const auto& cable : cables_)
+      settling.run([&, c = cable.get()] { c->Settle(rest, links_.world()); });
+    settling.wait();
+  });
   started_ = true;
   news_.push_back("cables settled at " + std::to_string(now_ / 1'000'000) +
                   " ms; the inertial frame is '" + links_.world() + "'");
-  Emit(sink);
+  for (const auto& cable : cables_) cable->Tell(rest, links_.world(), &told_);
+  CollectTold();
+  Deliver(sink);
   return true;
-}
-
-void CableEngine::Settle(Cable* cable) {
-  cable->failed = false;
-  cable->history.Clear();
-  const StepOutcome outcome = cable->simulation.Settle(SurroundingsOf(*cable));
-  if (!outcome.ok) {
-    Fail(cable, "no equilibrium at the start: " + outcome.message);
-    return;
-  }
-  cable->message = "swaying";
-  Record(cable);
-  cable->rest = frames_[cable->reference].motion.X.Inverse() * cable->simulation.Report().apex;
-}
-
-void CableEngine::Fail(Cable* cable, const std::string& message) {
-  cable->failed = true;
-  cable->message = message;
-  const std::string path = options_.dump_directory + "/" + cable->model().name + "_" +
-                           std::to_string(now_) + ".failed.yaml";
-  const bool dumped =
-      DumpState(path, cable->simulation, SurroundingsOf(*cable), now_, links_.world(), message);
-  cable->summary.failure =
-      message + (dumped ? "; state in " + path : "; its state could not be written to " + path);
-  news_.push_back("cable '" + cable->model().name + "' stopped at " +
-                  std::to_string(now_ / 1'000'000) + " ms: " + cable->summary.failure);
-}
-
-void CableEngine::Record(Cable* cable) {
-  const CableModel& model = cable->model();
-  const Eigen::Vector3d apex_W =
-      InterpolateNodes(cable->simulation.nodes(), model.length, model.apex_s).p;
-  cable->history.Add(now_, options_.amplitude_frame == AmplitudeFrame::kWorld
-                               ? apex_W
-                               : frames_[cable->reference].motion.X.Inverse() * apex_W);
-}
-
-void CableEngine::StepAll() {
-  EvaluateFrames(now_ + dt_);
-  std::vector<const Surroundings*> then(cables_.size(), nullptr);
-  for (std::size_t i = 0; i < cables_.size(); ++i) {
-    if (cables_[i].failed) continue;
-    surroundings_[i] = SurroundingsOf(cables_[i]);
-    then[i] = &surroundings_[i];
-  }
-  const std::vector<StepOutcome> outcomes = fleet_->Step(static_cast<double>(dt_) * 1e-9, then);
-  for (std::size_t i = 0; i < cables_.size(); ++i) {
-    if (!then[i]) continue;
-    Cable& cable = cables_[i];
-    cable.summary.iterations += static_cast<std::uint64_t>(outcomes[i].iterations);
-    if (outcomes[i].substeps > 1) ++cable.summary.retried_steps;
-    if (!outcomes[i].ok) {
-      Fail(&cable, outcomes[i].message);
-      continue;
-    }
-    ++cable.summary.steps;
-  }
-  now_ += dt_;
-  ++steps_;
-  for (Cable& cable : cables_) {
-    if (!cable.failed) Record(&cable);
-  }
 }
 
 void CableEngine::Advance(OutputSink* sink) {
@@ -257,74 +209,83 @@ void CableEngine::Advance(OutputSink* sink) {
   if (!started_ && !Start(sink)) return;
   std::int64_t begin = 0, ready = 0;
   if (!links_.Range(&begin, &ready)) return;
-  while (now_ + dt_ <= ready) {
-    StepAll();
-    Emit(sink);
-    if (steps_ % kDropInterval == 0) links_.DropBefore(now_);
+  // While the cables sway through a block, the motion of the next is followed, and what they told
+  // of the last one is delivered.
+  std::vector<Instant> block, next;
+  FollowBlock(now_, ready, &next);
+  while (!next.empty()) {
+    std::swap(block, next);
+    threads_->arena.execute([&] {
+      oneapi::tbb::task_group tasks;
+      tasks.run([&] { Deliver(sink); });
+      for (std::size_t g = 0; g < groups_.size(); ++g) tasks.run([&, g] { Sway(g, block); });
+      tasks.run_and_wait([&] { FollowBlock(block.back().time, ready, &next); });
+    });
+    now_ = block.back().time;
+    const std::uint64_t drops = steps_ / kDropInterval;
+    steps_ += block.size();
+    if (steps_ / kDropInterval != drops) links_.DropBefore(now_);
+    CollectTold();
+  }
+  Deliver(sink);
+}
+
+void CableEngine::Sway(std::size_t group, const std::vector<Instant>& block) {
+  Group& g = groups_[group];
+  const std::vector<std::size_t>& members = fleet_->members(group);
+  std::int64_t from = now_;
+  for (const Instant& instant : block) {
+    for (std::size_t k = 0; k < members.size(); ++k) g.then[k] = cables_[members[k]]->Then(instant);
+    fleet_->StepGroup(group, static_cast<double>(dt_) * 1e-9, g.then, &g.outcomes);
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      SwayingCable& cable = *cables_[members[k]];
+      if (g.then[k]) cable.Take(g.outcomes[k], instant, from, links_.world());
+      cable.Tell(instant, links_.world(), &g.told);
+    }
+    from = instant.time;
   }
 }
 
-bool CableEngine::Due(std::int64_t period) const {
-  return period > 0 && now_ / period != (now_ - dt_) / period;
+bool CableEngine::Due(std::int64_t period, std::int64_t time) const {
+  return period > 0 && time / period != (time - dt_) / period;
 }
 
-void CableEngine::Emit(OutputSink* sink) {
-  for (Cable& cable : cables_) {
-    if (!cable.failed && Due(telemetry_period_)) EmitTelemetry(&cable, sink);
-    if (Due(marker_period_)) EmitMarkers(&cable, sink);
+// In the order of time, and of the cables: whatever thread was first.
+void CableEngine::CollectTold() {
+  for (Group& group : groups_) {
+    std::move(group.told.begin(), group.told.end(), std::back_inserter(told_));
+    group.told.clear();
   }
-  if (Due(diagnostics_period_)) EmitDiagnostics(sink);
-}
-
-void CableEngine::EmitTelemetry(Cable* cable, OutputSink* sink) {
-  const CableReport report = cable->simulation.Report();
-  ApexTelemetry message =
-      MakeTelemetry(report, frames_[cable->reference].motion, cable->rest, now_);
-  message.header.frame_id = cable->model().reference;
-  message.amplitude = cable->history.PeakToPeak();
-  message.held =
-      links_.InGap(cable->model().a.link, now_) || links_.InGap(cable->model().b.link, now_);
-  if (!IsValid(message)) {
-    Fail(cable, "its state is not finite");
-    return;
+  std::stable_sort(told_.begin(), told_.end(), [](const Told& a, const Told& b) {
+    return std::tie(a.time, a.cable) < std::tie(b.time, b.cable);
+  });
+  for (const auto& cable : cables_) {
+    std::vector<std::string> news = cable->TakeNews();
+    std::move(news.begin(), news.end(), std::back_inserter(news_));
   }
-  if (message.held) ++cable->held;
-  CableSummary& summary = cable->summary;
-  summary.curvature_max = std::max(summary.curvature_max, message.curvature_max);
-  summary.clearance_min = std::min(summary.clearance_min, message.clearance);
-  summary.contact_force_max = std::max(summary.contact_force_max, message.contact_force);
-  summary.tension_max = std::max(summary.tension_max, message.tension);
-  summary.amplitude_max = std::max(summary.amplitude_max, message.amplitude);
-  summary.dissipated = message.dissipated;
-  summary.energy_residual = message.energy_residual;
-  sink->Telemetry(cable->model().name, message);
-}
-
-void CableEngine::EmitMarkers(Cable* cable, OutputSink* sink) {
-  if (!cable->failed) {
-    sink->Markers(
-        cable->model().name,
-        MakeMarkers(cable->simulation, frames_[cable->reference].motion.X, now_, options_.markers));
-  } else if (cable->shown) {
-    sink->Markers(cable->model().name, DeleteMarkers(cable->model(), now_));
-  }
-  cable->shown = !cable->failed;
-}
-
-void CableEngine::EmitDiagnostics(OutputSink* sink) {
+  if (!Due(diagnostics_period_, now_)) return;
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ToRosTime(now_);
   message.status.push_back(InputDiagnostics(links_, resets_));
-  for (const Cable& cable : cables_) {
-    message.status.push_back(
-        CableDiagnostics(cable.summary, cable.failed, cable.message, cable.held));
+  for (const auto& cable : cables_) message.status.push_back(cable->Diagnostics());
+  told_.push_back({now_, Told::kNoCable, std::move(message)});
+}
+
+void CableEngine::Deliver(OutputSink* sink) {
+  for (const Told& told : told_) {
+    if (const auto* telemetry = std::get_if<ApexTelemetry>(&told.message))
+      sink->Telemetry(cables_[told.cable]->model().name, *telemetry);
+    else if (const auto* markers = std::get_if<visualization_msgs::MarkerArray>(&told.message))
+      sink->Markers(cables_[told.cable]->model().name, *markers);
+    else
+      sink->Diagnostics(std::get<diagnostic_msgs::DiagnosticArray>(told.message));
   }
-  sink->Diagnostics(message);
+  told_.clear();
 }
 
 bool CableEngine::AnyFailed() const {
   return std::any_of(cables_.begin(), cables_.end(),
-                     [](const Cable& c) { return !c.summary.failure.empty(); });
+                     [](const auto& c) { return !c->summary().failure.empty(); });
 }
 
 std::vector<std::string> CableEngine::TakeNews() {
@@ -340,7 +301,7 @@ Summary CableEngine::MakeSummary() const {
   summary.resets = resets_;
   summary.gaps = links_.gap_count();
   summary.warnings = links_.warnings().counts();
-  for (const Cable& cable : cables_) summary.cables.push_back(cable.summary);
+  for (const auto& cable : cables_) summary.cables.push_back(cable->summary());
   return summary;
 }
 

@@ -42,6 +42,7 @@ NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problem
   reader.Read("amplitude_window", "a number [s]", &engine.amplitude_window);
   reader.Read("clearance_reach", "a number [m]", &engine.clearance_reach);
   reader.Read("curvature_scale", "a number [1/m]", &engine.markers.curvature_scale);
+  reader.Read("threads", "a whole number (0: one per core)", &engine.threads);
   reader.Read("dump_directory", "a folder", &engine.dump_directory);
   std::string frame = "reference";
   reader.Read("amplitude_frame", "'reference' or 'world'", &frame);

@@ -6,9 +6,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <optional>
 
 #include "cosserat_cable/ros/bag_sink.h"
+#include "cosserat_cable/ros/conversions.h"
 #include "interrupt.h"
 #include "progress.h"
 
@@ -56,6 +58,19 @@ void Say(CableEngine* engine) {
   }
 }
 
+// So much of the recording is read before the cables follow: their threads then have enough to do
+// [ns]. Less where time runs backwards, for what is not simulated by then is lost.
+constexpr std::int64_t kReadAhead = 200'000'000;
+
+std::int64_t EarliestStamp(const BagMessage& message) {
+  if (message.joints) return ToNanoseconds(message.joints->header.stamp);
+  std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
+  if (message.tf && !message.is_static)
+    for (const auto& transform : message.tf->transforms)
+      earliest = std::min(earliest, ToNanoseconds(transform.header.stamp));
+  return earliest;
+}
+
 // Feeds the recording through the engine into the bag; false where it was interrupted.
 bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
   const BagSurvey& survey = *inputs.survey;
@@ -66,11 +81,16 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
     Say(engine);
     progress.Update(static_cast<double>(engine->now() - survey.first_step) * 1e-9);
   };
+  std::int64_t advance_at = survey.from + kReadAhead;
   inputs.bags->ForEach(survey.from, survey.to, [&](const BagMessage& message) {
+    if (message.time >= advance_at ||
+        EarliestStamp(message) < engine->links().last_stamp() - kReadAhead) {
+      advance();
+      advance_at = message.time + kReadAhead;
+    }
     if (message.tf) engine->Ingest(*message.tf, message.is_static);
     if (message.joints) engine->Ingest(*message.joints);
     sink->Copy(message);
-    advance();
     return !Interrupted();
   });
   if (!Interrupted()) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -19,16 +20,20 @@ class Recorder : public OutputSink {
  public:
   void Telemetry(const std::string& cable, const ApexTelemetry& message) override {
     telemetry[cable].push_back(message);
+    order.push_back(ToNanoseconds(message.header.stamp));
   }
   void Markers(const std::string& cable, const visualization_msgs::MarkerArray& message) override {
     markers[cable].push_back(message);
+    order.push_back(ToNanoseconds(message.markers.front().header.stamp));
   }
   void Diagnostics(const diagnostic_msgs::DiagnosticArray& message) override {
     diagnostics.push_back(message);
+    order.push_back(ToNanoseconds(message.header.stamp));
   }
   std::map<std::string, std::vector<ApexTelemetry>> telemetry;
   std::map<std::string, std::vector<visualization_msgs::MarkerArray>> markers;
   std::vector<diagnostic_msgs::DiagnosticArray> diagnostics;
+  std::vector<std::int64_t> order;  // stamps as they came
 };
 
 // An arch between two links of its own: the second can be torn away.
@@ -125,6 +130,49 @@ TEST_F(CableEngineTest, SameInputSameBits) {
     runs.push_back(out_.telemetry.at("c"));
   }
   EXPECT_EQ(runs[0], runs[1]);
+}
+
+TEST_F(CableEngineTest, ThreadsChangeNothing) {
+  // Nine cables of two kinds: groups of four, of one, and a failure in the midst of them.
+  std::vector<CableModel> cables;
+  for (int i = 0; i < 9; ++i) {
+    cables.push_back(MakeCable("c" + std::to_string(i), i == 5 ? "other" : "base"));
+    if (i % 2 == 1) cables.back().elements = 24;
+    cables.back().mass_per_length *= 1 + 0.1 * i;
+  }
+  std::vector<Recorder> runs;
+  for (const int threads : {1, 2, 7}) {
+    out_ = Recorder();
+    options_.threads = threads;
+    CableEngine engine(vehicle_, bodies_, cables, options_);
+    Feed(&engine, kStart, 300, [](double t) { return t < 0.7 ? 0.0 : 1e5 * (t - 0.7); });
+    engine.Finish();
+    engine.Advance(&out_);
+    EXPECT_TRUE(engine.AnyFailed());
+    runs.push_back(out_);
+  }
+  for (const Recorder& run : runs) {
+    EXPECT_EQ(run.telemetry, runs.front().telemetry);
+    EXPECT_EQ(run.diagnostics, runs.front().diagnostics);
+    EXPECT_EQ(run.markers, runs.front().markers);
+    EXPECT_EQ(run.order, runs.front().order);
+    EXPECT_TRUE(std::is_sorted(run.order.begin(), run.order.end()));
+  }
+  EXPECT_GT(runs.front().order.size(), 9u * 100);
+}
+
+TEST_F(CableEngineTest, MarkersMayBeLeftOut) {
+  CableEngine engine(vehicle_, bodies_, {MakeCable("c", "base")}, options_);
+  engine.SendMarkers(false);
+  Feed(&engine, kStart, 101);
+  EXPECT_TRUE(out_.markers.empty());
+  const std::size_t telemetry = out_.telemetry.at("c").size();
+  EXPECT_GE(telemetry, 90u);  // the last samples wait for later ones
+  engine.SendMarkers(true);
+  Feed(&engine, kStart + 101 * kPeriod, 100);
+  // 30 Hz over half a second, and what the motion curve had kept waiting.
+  EXPECT_NEAR(static_cast<double>(out_.markers.at("c").size()), 16, 1);
+  EXPECT_GT(out_.telemetry.at("c").size(), telemetry + 90);
 }
 
 TEST_F(CableEngineTest, RunningBackwardsSettlesAnew) {

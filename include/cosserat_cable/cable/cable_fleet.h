@@ -1,6 +1,7 @@
 // The cables of a vehicle, stepped side by side.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -18,6 +19,16 @@ class CableFleet {
   ~CableFleet();
   CableFleet(CableFleet&&) noexcept;
   CableFleet& operator=(CableFleet&&) noexcept;
+
+  /// Cables that go through one kernel together. Groups may be stepped in different threads.
+  std::size_t group_count() const;
+  /// Indices of a group's cables.
+  const std::vector<std::size_t>& members(std::size_t group) const;
+
+  /// Advances the k-th member of a group by `dt` [s] to `then[k]`; a null pointer leaves it where
+  /// it is, and its outcome as it was.
+  void StepGroup(std::size_t group, double dt, const std::vector<const Surroundings*>& then,
+                 std::vector<StepOutcome>* outcomes);
 
   /// Advances cable i by `dt` [s] to `then[i]`; a null pointer leaves it where it is.
   /// @return an outcome for each cable, in their order

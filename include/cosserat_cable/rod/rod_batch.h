@@ -23,17 +23,15 @@ class RodBatch {
  public:
   static constexpr int kMaxRods = 4;
 
-  /// `sharing`: a batch whose working memory this one uses as well, where both have the same number
-  /// of elements: batches that are stepped in turn then fit into the cache together.
   /// @throws std::invalid_argument where the rods do not fit together, or one has joints
-  explicit RodBatch(const std::vector<Rod*>& rods, const RodBatch* sharing = nullptr);
+  explicit RodBatch(const std::vector<Rod*>& rods);
   ~RodBatch();
   RodBatch(RodBatch&&) noexcept;
   RodBatch& operator=(RodBatch&&) noexcept;
 
   /// As Rod::Step for each rod; those whose drive has no `a` are left alone, with a report that has
-  /// not converged.
-  std::vector<SolveReport> Step(double dt, const std::vector<RodDrive>& drives);
+  /// not converged. Valid until the next step.
+  const std::vector<SolveReport>& Step(double dt, const std::vector<RodDrive>& drives);
 
  private:
   struct Impl;

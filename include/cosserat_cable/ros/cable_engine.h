@@ -31,6 +31,7 @@ struct EngineOptions {
   double clearance_reach = 0.05;           ///< bodies farther away count as none [m]
   MarkerStyle markers;
   std::string dump_directory = ".";  ///< where a failed cable's state is written
+  int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
 
   /// What is wrong with the numbers, one sentence each.
@@ -63,6 +64,9 @@ class CableEngine {
   /// The first call that finds all links known settles the cables there.
   void Advance(OutputSink* sink);
 
+  /// Whether markers are sent when they are due: not where there is no time for them.
+  void SendMarkers(bool send) { send_markers_ = send; }
+
   bool started() const { return started_; }
   std::int64_t now() const { return now_; }  ///< simulated time [ns]; 0 before the start
   const LinkMotion& links() const { return links_; }
@@ -74,32 +78,33 @@ class CableEngine {
   Summary MakeSummary() const;
 
  private:
-  struct Frame;
-  struct Cable;
+  class SwayingCable;
+  struct Instant;
+  struct Told;
+  struct Group;
+  struct Threads;
 
   bool Start(OutputSink* sink);
-  void EvaluateFrames(std::int64_t time);
-  Surroundings SurroundingsOf(const Cable& cable) const;
-  void Settle(Cable* cable);
-  void StepAll();
-  void Fail(Cable* cable, const std::string& message);
-  void Record(Cable* cable);
-  void Emit(OutputSink* sink);
-  void EmitTelemetry(Cable* cable, OutputSink* sink);
-  void EmitMarkers(Cable* cable, OutputSink* sink);
-  void EmitDiagnostics(OutputSink* sink);
-  bool Due(std::int64_t period) const;
+  Instant Follow(std::int64_t time);
+  void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
+  void Sway(std::size_t group, const std::vector<Instant>& block);
+  void CollectTold();
+  void Deliver(OutputSink* sink);
+  bool Due(std::int64_t period, std::int64_t time) const;
   std::size_t FrameIndex(const std::string& link);
 
   EngineOptions options_;
   std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
   std::string vehicle_root_;
   LinkMotion links_;
-  std::vector<Frame> frames_;
-  std::vector<Cable> cables_;
-  std::unique_ptr<CableFleet> fleet_;        // of their simulations
-  std::vector<Surroundings> surroundings_;   // of the cables at the end of the step
+  std::vector<std::string> frames_;  // links whose motion the cables need
+  std::vector<std::unique_ptr<SwayingCable>> cables_;
+  std::unique_ptr<CableFleet> fleet_;  // of their simulations
+  std::vector<Group> groups_;          // of the fleet
+  std::unique_ptr<Threads> threads_;
+  std::vector<Told> told_;  // to be delivered
 
+  bool send_markers_ = true;
   bool started_ = false;
   bool finished_ = false;
   std::int64_t now_ = 0;

@@ -1,0 +1,127 @@
+#include "swaying_cable.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cosserat_cable/ros/markers.h"
+#include "cosserat_cable/ros/telemetry.h"
+#include "diagnostics.h"
+#include "state_dump.h"
+
+namespace cosserat_cable {
+
+CableEngine::SwayingCable::SwayingCable(const CableModel& model, std::vector<const Body*> obstacles,
+                                        Frames frames, std::size_t index,
+                                        const EngineOptions& options)
+    : options_(options),
+      simulation_(model, std::move(obstacles), options.gravity_W, options.clearance_reach),
+      frames_(std::move(frames)),
+      index_(index),
+      history_(std::llround(1e9 * options.amplitude_window)) {
+  surroundings_.obstacles.resize(frames_.obstacles.size());
+  summary_.name = model.name;
+}
+
+diagnostic_msgs::DiagnosticStatus CableEngine::SwayingCable::Diagnostics() const {
+  return CableDiagnostics(summary_, failed_, message_, held_);
+}
+
+void CableEngine::SwayingCable::Surround(const Instant& now) {
+  surroundings_.a = now.frames[frames_.a] * Motion::Resting(model().a.X_LC);
+  surroundings_.b = now.frames[frames_.b] * Motion::Resting(model().b.X_LC);
+  for (std::size_t i = 0; i < frames_.obstacles.size(); ++i)
+    surroundings_.obstacles[i] = now.frames[frames_.obstacles[i]];
+}
+
+void CableEngine::SwayingCable::Settle(const Instant& now, const std::string& world) {
+  failed_ = false;
+  history_.Clear();
+  Surround(now);
+  const StepOutcome outcome = simulation_.Settle(surroundings_);
+  if (!outcome.ok) {
+    Fail("no equilibrium at the start: " + outcome.message, now.time, world);
+    return;
+  }
+  message_ = "swaying";
+  Record(now);
+  rest_ = now.frames[frames_.reference].X.Inverse() * simulation_.Report().apex;
+}
+
+const Surroundings* CableEngine::SwayingCable::Then(const Instant& then) {
+  if (failed_) return nullptr;
+  Surround(then);
+  return &surroundings_;
+}
+
+void CableEngine::SwayingCable::Take(const StepOutcome& outcome, const Instant& then,
+                                     std::int64_t from, const std::string& world) {
+  summary_.iterations += static_cast<std::uint64_t>(outcome.iterations);
+  if (outcome.substeps > 1) ++summary_.retried_steps;
+  if (!outcome.ok) {
+    Fail(outcome.message, from, world);
+    return;
+  }
+  ++summary_.steps;
+  Record(then);
+}
+
+void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t time,
+                                     const std::string& world) {
+  failed_ = true;
+  message_ = message;
+  const std::string path =
+      options_.dump_directory + "/" + model().name + "_" + std::to_string(time) + ".failed.yaml";
+  const bool dumped = DumpState(path, simulation_, surroundings_, time, world, message);
+  summary_.failure =
+      message + (dumped ? "; state in " + path : "; its state could not be written to " + path);
+  news_.push_back("cable '" + model().name + "' stopped at " + std::to_string(time / 1'000'000) +
+                  " ms: " + summary_.failure);
+}
+
+void CableEngine::SwayingCable::Record(const Instant& now) {
+  const Eigen::Vector3d apex_W =
+      InterpolateNodes(simulation_.nodes(), model().length, model().apex_s).p;
+  history_.Add(now.time, options_.amplitude_frame == AmplitudeFrame::kWorld
+                             ? apex_W
+                             : now.frames[frames_.reference].X.Inverse() * apex_W);
+}
+
+void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world,
+                                     std::vector<Told>* told) {
+  if (now.telemetry && !failed_ && !TellTelemetry(now, told))
+    Fail("its state is not finite", now.time, world);
+  if (!now.markers) return;
+  if (!failed_) {
+    told->push_back(
+        {now.time, index_,
+         MakeMarkers(simulation_, now.frames[frames_.reference].X, now.time, options_.markers)});
+  } else if (shown_) {
+    told->push_back({now.time, index_, DeleteMarkers(model(), now.time)});
+  }
+  shown_ = !failed_;
+}
+
+// False where something is not finite: nothing is told then.
+bool CableEngine::SwayingCable::TellTelemetry(const Instant& now, std::vector<Told>* told) {
+  ApexTelemetry message =
+      MakeTelemetry(simulation_.Report(), now.frames[frames_.reference], rest_, now.time);
+  message.header.frame_id = model().reference;
+  message.amplitude = history_.PeakToPeak();
+  message.held = now.in_gap[frames_.a] || now.in_gap[frames_.b];
+  if (!IsValid(message)) return false;
+  if (message.held) ++held_;
+  summary_.curvature_max = std::max(summary_.curvature_max, message.curvature_max);
+  summary_.clearance_min = std::min(summary_.clearance_min, message.clearance);
+  summary_.contact_force_max = std::max(summary_.contact_force_max, message.contact_force);
+  summary_.tension_max = std::max(summary_.tension_max, message.tension);
+  summary_.amplitude_max = std::max(summary_.amplitude_max, message.amplitude);
+  summary_.dissipated = message.dissipated;
+  summary_.energy_residual = message.energy_residual;
+  told->push_back({now.time, index_, std::move(message)});
+  return true;
+}
+
+std::vector<std::string> CableEngine::SwayingCable::TakeNews() { return std::exchange(news_, {}); }
+
+}  // namespace cosserat_cable
