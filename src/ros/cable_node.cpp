@@ -11,6 +11,7 @@
 #include <filesystem>
 
 #include "diagnostics.h"
+#include "pace.h"
 
 namespace cosserat_cable {
 namespace {
@@ -23,19 +24,29 @@ constexpr double kWaitingPeriod = 1;
 
 using Clock = std::chrono::steady_clock;
 
-// Adds what only the live node knows to the engine's diagnostics.
+// Adds what only the live node knows to the engine's diagnostics, and watches how late it is.
 class NodeSink : public TopicSink {
  public:
   using TopicSink::TopicSink;
 
+  void Telemetry(const std::string& cable, const ApexTelemetry& message) override {
+    pace_.Delivered((ros::Time::now() - message.header.stamp).toSec(), Clock::now());
+    TopicSink::Telemetry(cable, message);
+  }
+
   void Diagnostics(const diagnostic_msgs::DiagnosticArray& message) override {
     const double latency = (ros::Time::now() - message.header.stamp).toSec();
+    const Pace::Report pace = pace_.Take();
     diagnostic_msgs::DiagnosticArray extended = message;
     diagnostic_msgs::DiagnosticStatus status;
     status.name = "cosserat_cable: node";
     status.hardware_id = "none";
-    status.message = "running";
+    status.level = pace_.behind() ? diagnostic_msgs::DiagnosticStatus::WARN
+                                  : diagnostic_msgs::DiagnosticStatus::OK;
+    status.message = pace_.behind() ? "behind the clock: markers are left out" : "running";
     AddValue("latency [s]", latency, &status);
+    AddValue("worst latency [s]", pace.worst_latency, &status);
+    AddValue("real-time factor", pace.real_time_factor, &status);
     AddValue("peak memory [bytes]", PeakMemory(), &status);
     extended.status.push_back(status);
     TopicSink::Diagnostics(extended);
@@ -44,6 +55,7 @@ class NodeSink : public TopicSink {
                   latency);
   }
 
+  Pace* pace() { return &pace_; }
   double SecondsSinceLast() const { return SecondsSince(last_); }
   /// Why nothing moves: `reasons` before the start; after it, that no input came.
   void ReportWaiting(bool started, const std::vector<std::string>& reasons) {
@@ -67,6 +79,7 @@ class NodeSink : public TopicSink {
     return std::chrono::duration<double>(Clock::now() - time).count();
   }
 
+  Pace pace_;
   Clock::time_point last_ = Clock::now();       // message
   Clock::time_point last_news_ = Clock::now();  // from the simulation
 };
@@ -100,6 +113,19 @@ Inputs LoadNodeInputs(const NodeOptions& options, Problems* problems) {
   InputPaths paths = options.inputs;
   paths.vehicle = file.path();
   return LoadInputs(paths, options.engine, problems);
+}
+
+// Physics and telemetry are never left out; markers are, while there is no time for them.
+void AdvanceTimed(CableEngine* engine, NodeSink* sink) {
+  const bool had_started = engine->started();
+  const std::int64_t from = engine->now();
+  const Clock::time_point start = Clock::now();
+  engine->SendMarkers(!sink->pace()->behind());
+  engine->Advance(sink);
+  const double busy = std::chrono::duration<double>(Clock::now() - start).count();
+  // Not where the cables settled anew, which takes time and simulates none.
+  if (had_started && engine->now() > from)
+    sink->pace()->Advanced(static_cast<double>(engine->now() - from) * 1e-9, busy);
 }
 
 }  // namespace
@@ -138,7 +164,12 @@ ExitCode RunNode(const NodeOptions& options) {
   const Clock::time_point start = Clock::now();
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kSpinSeconds));
-    engine.Advance(&sink);
+    const bool was_behind = sink.pace()->behind();
+    AdvanceTimed(&engine, &sink);
+    if (sink.pace()->behind() != was_behind) {
+      ROS_WARN_STREAM((was_behind ? "on time again: markers are back"
+                                  : "cannot keep up with the clock: markers are left out"));
+    }
     for (const std::string& news : engine.TakeNews()) ROS_WARN_STREAM(news);
     if (sink.SecondsSinceLast() > kWaitingPeriod) {
       sink.ReportWaiting(engine.started(), engine.links().Missing());
