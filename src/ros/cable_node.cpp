@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "cosserat_cable/ros/conversions.h"
 #include "diagnostics.h"
 #include "pace.h"
 
@@ -36,6 +37,7 @@ class NodeSink : public TopicSink {
 
   void Diagnostics(const diagnostic_msgs::DiagnosticArray& message) override {
     const double latency = (ros::Time::now() - message.header.stamp).toSec();
+    pace_.Reached(ToNanoseconds(message.header.stamp), Clock::now());
     const Pace::Report pace = pace_.Take();
     diagnostic_msgs::DiagnosticArray extended = message;
     diagnostic_msgs::DiagnosticStatus status;
@@ -117,15 +119,10 @@ Inputs LoadNodeInputs(const NodeOptions& options, Problems* problems) {
 
 // Physics and telemetry are never left out; markers are, while there is no time for them.
 void AdvanceTimed(CableEngine* engine, NodeSink* sink) {
-  const bool had_started = engine->started();
-  const std::int64_t from = engine->now();
-  const Clock::time_point start = Clock::now();
   engine->SendMarkers(!sink->pace()->behind());
+  sink->pace()->Begin(engine->started() ? engine->now() : 0, Clock::now());
   engine->Advance(sink);
-  const double busy = std::chrono::duration<double>(Clock::now() - start).count();
-  // Not where the cables settled anew, which takes time and simulates none.
-  if (had_started && engine->now() > from)
-    sink->pace()->Advanced(static_cast<double>(engine->now() - from) * 1e-9, busy);
+  sink->pace()->Reached(engine->now(), Clock::now());
 }
 
 }  // namespace

@@ -15,9 +15,18 @@ constexpr std::chrono::seconds kPatience{2};
 
 }  // namespace
 
-void Pace::Advanced(double simulated, double busy) {
-  simulated_ += simulated;
-  busy_ += busy;
+void Pace::Begin(std::int64_t simulated, Clock::time_point now) {
+  at_ = simulated;
+  at_time_ = now;
+}
+
+void Pace::Reached(std::int64_t simulated, Clock::time_point now) {
+  // Not where the cables settled anew, which takes time and simulates none.
+  if (at_ > 0 && simulated > at_) {
+    simulated_ += static_cast<double>(simulated - at_) * 1e-9;
+    busy_ += std::chrono::duration<double>(now - at_time_).count();
+  }
+  Begin(simulated, now);
 }
 
 void Pace::Delivered(double latency, Clock::time_point now) {

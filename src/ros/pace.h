@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 
 namespace cosserat_cable {
@@ -10,8 +11,10 @@ class Pace {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// What was simulated [s], and what that took [s of the wall's clock].
-  void Advanced(double simulated, double busy);
+  /// The simulation goes on from `simulated` [ns].
+  void Begin(std::int64_t simulated, Clock::time_point now);
+  /// It has come that far without a rest.
+  void Reached(std::int64_t simulated, Clock::time_point now);
   /// How old [s of the node's clock] telemetry was when it was handed out, at `now`.
   void Delivered(double latency, Clock::time_point now);
 
@@ -27,6 +30,8 @@ class Pace {
   Report Take();
 
  private:
+  std::int64_t at_ = 0;  // [ns]
+  Clock::time_point at_time_;
   double simulated_ = 0, busy_ = 0, worst_ = 0;
   std::optional<Clock::time_point> late_since_;
   bool behind_ = false;

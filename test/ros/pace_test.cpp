@@ -29,8 +29,12 @@ TEST(PaceTest, ALongDelayIsNotUntilItIsCaughtUpWith) {
 
 TEST(PaceTest, ReportsWhatHappenedSinceTheLastReport) {
   Pace pace;
-  pace.Advanced(0.02, 0.005);
-  pace.Advanced(0.01, 0.001);
+  // 20 ms in 5 ms, a rest, 10 ms in 1 ms; what came before the start is not known.
+  pace.Begin(0, kStart);
+  pace.Reached(1'000'000'000, kStart + milliseconds(700));
+  pace.Reached(1'020'000'000, kStart + milliseconds(705));
+  pace.Begin(1'020'000'000, kStart + milliseconds(800));
+  pace.Reached(1'030'000'000, kStart + milliseconds(801));
   pace.Delivered(0.03, kStart);
   pace.Delivered(0.01, kStart);
   const Pace::Report report = pace.Take();
