@@ -27,13 +27,14 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
   impl_->cables = cables;
   // What the rods of a batch have in common: the number of elements, and which ends are rigid.
   std::map<std::tuple<int, bool, bool>, std::vector<std::size_t>> alike;
+  const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
   for (std::size_t i = 0; i < cables.size(); ++i) {
     const rod::RodModel& rod = cables[i]->impl_->rod.model();
     alike[{rod.elements, rod.a.clamped(), rod.b.clamped()}].push_back(i);
   }
   for (const auto& [kind, members] : alike)
-    for (std::size_t first = 0; first < members.size(); first += rod::RodBatch::kMaxRods) {
-      const std::size_t last = std::min(members.size(), first + rod::RodBatch::kMaxRods);
+    for (std::size_t first = 0; first < members.size(); first += together) {
+      const std::size_t last = std::min(members.size(), first + together);
       Impl::Group group;
       group.members.assign(members.begin() + first, members.begin() + last);
       if (group.members.size() > 1) {

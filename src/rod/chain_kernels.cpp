@@ -1,5 +1,6 @@
 #include "chain_kernels.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "cosserat_cable/math/kernel.h"
@@ -41,42 +42,75 @@ inline void Transpose(Vector4* v) {
 }
 
 // A record is a struct of nothing but doubles, or of nothing but lanes; it is at least as long as
-// there are lanes. The last transposition overlaps the one before where the lengths do not divide.
+// there are lanes, up to four. The last transposition overlaps the one before where the lengths do
+// not divide.
+constexpr int kLongestRecord = 13;
 template <class Record, int N>
 constexpr int kLength = sizeof(Record) / sizeof(BasicLanes<N>);
 
-template <int N, class One, class All>
-void GatherRecord(const One* const* from, All* to) {
-  constexpr int kCount = kLength<All, N>;
-  static_assert(sizeof(One) == kCount * sizeof(double) && kCount >= N);
-  BasicLanes<N>* out = reinterpret_cast<BasicLanes<N>*>(to);
+template <int N, class One>
+void GatherDoubles(int count, const One* const* from, BasicLanes<N>* to) {
 #pragma GCC unroll 16
-  for (int start = 0; start < kCount; start += N) {
-    const int at = start + N <= kCount ? start : kCount - N;
+  for (int start = 0; start < count; start += N) {
+    const int at = start + N <= count ? start : count - N;
     typename BasicLanes<N>::Vector v[N];
 #pragma GCC unroll 8
     for (int l = 0; l < N; ++l) v[l] = Load<N>(reinterpret_cast<const double*>(from[l]) + at);
     Transpose(v);
 #pragma GCC unroll 8
-    for (int l = 0; l < N; ++l) out[at + l].v = v[l];
+    for (int l = 0; l < N; ++l) to[at + l].v = v[l];
   }
+}
+// Eight rods as two times four: a record may be shorter than eight.
+template <class One>
+void GatherDoubles(int count, const One* const* from, WideLanes* to) {
+  Lanes low[kLongestRecord], high[kLongestRecord];
+  GatherDoubles(count, from, low);
+  GatherDoubles(count, from + 4, high);
+#pragma GCC unroll 16
+  for (int k = 0; k < count; ++k)
+    to[k].v = __builtin_shufflevector(low[k].v, high[k].v, 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+template <int N, class One>
+void ScatterDoubles(int count, const BasicLanes<N>* from, One* const* to) {
+#pragma GCC unroll 16
+  for (int start = 0; start < count; start += N) {
+    const int at = start + N <= count ? start : count - N;
+    typename BasicLanes<N>::Vector v[N];
+#pragma GCC unroll 8
+    for (int l = 0; l < N; ++l) v[l] = from[at + l].v;
+    Transpose(v);
+#pragma GCC unroll 8
+    for (int l = 0; l < N; ++l) Store<N>(v[l], reinterpret_cast<double*>(to[l]) + at);
+  }
+}
+template <class One>
+void ScatterDoubles(int count, const WideLanes* from, One* const* to) {
+  Lanes low[kLongestRecord], high[kLongestRecord];
+#pragma GCC unroll 16
+  for (int k = 0; k < count; ++k) {
+    low[k].v = __builtin_shufflevector(from[k].v, from[k].v, 0, 1, 2, 3);
+    high[k].v = __builtin_shufflevector(from[k].v, from[k].v, 4, 5, 6, 7);
+  }
+  ScatterDoubles(count, low, to);
+  ScatterDoubles(count, high, to + 4);
+}
+
+template <int N, class One, class All>
+void GatherRecord(const One* const* from, All* to) {
+  constexpr int kCount = kLength<All, N>;
+  static_assert(sizeof(One) == kCount * sizeof(double));
+  static_assert(kCount >= std::min(N, 4) && kCount <= kLongestRecord);
+  GatherDoubles(kCount, from, reinterpret_cast<BasicLanes<N>*>(to));
 }
 
 template <int N, class One, class All>
 void ScatterRecord(const All& from, One* const* to) {
   constexpr int kCount = kLength<All, N>;
-  static_assert(sizeof(One) == kCount * sizeof(double) && kCount >= N);
-  const BasicLanes<N>* in = reinterpret_cast<const BasicLanes<N>*>(&from);
-#pragma GCC unroll 16
-  for (int start = 0; start < kCount; start += N) {
-    const int at = start + N <= kCount ? start : kCount - N;
-    typename BasicLanes<N>::Vector v[N];
-#pragma GCC unroll 8
-    for (int l = 0; l < N; ++l) v[l] = in[at + l].v;
-    Transpose(v);
-#pragma GCC unroll 8
-    for (int l = 0; l < N; ++l) Store<N>(v[l], reinterpret_cast<double*>(to[l]) + at);
-  }
+  static_assert(sizeof(One) == kCount * sizeof(double));
+  static_assert(kCount >= std::min(N, 4) && kCount <= kLongestRecord);
+  ScatterDoubles(kCount, reinterpret_cast<const BasicLanes<N>*>(&from), to);
 }
 
 // ---- Predict
@@ -232,7 +266,8 @@ void AddInertia(const StepCoefficients& c, const NodeMass<T>& lump, Triangle6<T>
 
 /// Sums the two halves in their common node.
 inline void Join(LanePair* x) { x->v += __builtin_shufflevector(x->v, x->v, 1, 0); }
-inline void Join(Lanes*) {}
+template <int N>
+void Join(BasicLanes<N>*) {}
 
 /// The nodes as the element between them sees them; kJointed: whether any rod has joints.
 template <bool kJointed, class T>
@@ -484,12 +519,12 @@ void AcceptOf(const StepCoefficients& c, const StepChain<BasicLanes<N>>& w,
 }  // namespace
 
 // Joints are rare: with them, the loops are compiled once, for the oldest machine.
-#define COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(T)                                                   \
-  COSSERAT_CABLE_KERNEL                                                                          \
+#define COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(KERNEL, T)                                           \
+  KERNEL                                                                                         \
   void Predict(const StepCoefficients& c, const RodState* rods, StepChain<T>* w) {               \
     PredictOf(c, rods, w);                                                                       \
   }                                                                                              \
-  COSSERAT_CABLE_KERNEL                                                                          \
+  KERNEL                                                                                         \
   void EliminateUnjointed(const StepCoefficients& c, bool fresh, StepChain<T>* w, T* smallest) { \
     while (!EliminateForwardOf<false>(c, fresh, w, smallest)) continue;                          \
   }                                                                                              \
@@ -497,12 +532,12 @@ void AcceptOf(const StepCoefficients& c, const StepChain<BasicLanes<N>>& w,
     if (w->joints.empty()) return EliminateUnjointed(c, fresh, w, smallest);                     \
     while (!EliminateForwardOf<true>(c, fresh, w, smallest)) continue;                           \
   }                                                                                              \
-  COSSERAT_CABLE_KERNEL                                                                          \
+  KERNEL                                                                                         \
   void CorrectBackward(const StepCoefficients& c, const T& keep, StepChain<T>* w,                \
                        ChainCorrection<T>* size) {                                               \
     CorrectBackwardOf(c, keep, w, size);                                                         \
   }                                                                                              \
-  COSSERAT_CABLE_KERNEL                                                                          \
+  KERNEL                                                                                         \
   void EvaluateUnjointed(StepChain<T>* w) {                                                      \
     while (!EvaluateAcceptedOf<false>(w)) continue;                                              \
   }                                                                                              \
@@ -510,12 +545,13 @@ void AcceptOf(const StepCoefficients& c, const StepChain<BasicLanes<N>>& w,
     if (w->joints.empty()) return EvaluateUnjointed(w);                                          \
     while (!EvaluateAcceptedOf<true>(w)) continue;                                               \
   }                                                                                              \
-  COSSERAT_CABLE_KERNEL                                                                          \
+  KERNEL                                                                                         \
   void Accept(const StepCoefficients& c, const StepChain<T>& w, const RodState* const* rods) {   \
     AcceptOf(c, w, rods);                                                                        \
   }
 
-COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(Lanes)
-COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(LanePair)
+COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(COSSERAT_CABLE_WIDE_KERNEL, WideLanes)
+COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(COSSERAT_CABLE_KERNEL, Lanes)
+COSSERAT_CABLE_DEFINE_CHAIN_KERNELS(COSSERAT_CABLE_KERNEL, LanePair)
 
 }  // namespace cosserat_cable::rod

@@ -12,7 +12,7 @@ struct RodState {
   NodeRates<double>*rate, *algorithm;  // true accelerations, generalised-alpha's own
 };
 
-/// Declares each kernel for four rods and for one in halves: a function template could not be
+/// Declares each kernel for eight rods, for four, and for one in halves: a function template could not be
 /// compiled for several instruction sets.
 #define COSSERAT_CABLE_DECLARE_CHAIN_KERNELS(T)                                                   \
   /** The first iterate: constant velocity. `rods`: by lane; of one in halves, the same twice. */ \
@@ -30,6 +30,7 @@ struct RodState {
   /** The iterate becomes the state of the rods that are not null. */                             \
   void Accept(const StepCoefficients& c, const StepChain<T>& w, const RodState* const* rods);
 
+COSSERAT_CABLE_DECLARE_CHAIN_KERNELS(WideLanes)
 COSSERAT_CABLE_DECLARE_CHAIN_KERNELS(Lanes)
 COSSERAT_CABLE_DECLARE_CHAIN_KERNELS(LanePair)
 #undef COSSERAT_CABLE_DECLARE_CHAIN_KERNELS

@@ -2,14 +2,25 @@
 
 #include <stdexcept>
 
+#include "cosserat_cable/math/kernel.h"
 #include "rod_impl.h"
 #include "time_step.h"
 
 namespace cosserat_cable::rod {
+
 struct RodBatch::Impl {
-  explicit Impl(const std::vector<Rod*>& all)
+  virtual ~Impl() = default;
+  virtual const std::vector<SolveReport>& Step(double dt, const std::vector<RodDrive>& drives) = 0;
+};
+
+template <class T>
+struct RodBatch::ImplInLanes : Impl {
+  static constexpr int kLanes = kLaneCount<T>;
+
+  explicit ImplInLanes(const std::vector<Rod*>& all)
       : rods(all), chain(ChainLayout::Side(all.front()->elements())), reports(all.size()) {
-    for (int l = 0; l < kMaxRods; ++l) OfLane(l).FillMasses(l, chain.layout, &chain.masses);
+    for (int l = 0; l < kLanes; ++l) OfLane(l).FillMasses(l, chain.layout, &chain.masses);
+    chain.SetHeld(OfLane(0).model.a.clamped(), OfLane(0).model.b.clamped());
   }
 
   // Lanes without a rod repeat the first one's and are never active.
@@ -17,14 +28,52 @@ struct RodBatch::Impl {
     return *rods[lane < static_cast<int>(rods.size()) ? lane : 0]->impl_;
   }
 
+  const std::vector<SolveReport>& Step(double dt, const std::vector<RodDrive>& drives) override {
+    const int count = static_cast<int>(rods.size());
+    const StepCoefficients c(dt);
+    StepOfRod steps[kLanes];
+    RodState states[kLanes];
+    for (int l = 0; l < kLanes; ++l) {
+      Rod::Impl& rod = OfLane(l);
+      states[l] = rod.State();
+      steps[l].ends = &rod.ends;
+      if (l < count && drives[l].a) {
+        steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
+        rod.BeginStep(c, *drives[l].a, *drives[l].b);
+      }
+      rod.FillChain(l, &chain);
+    }
+    Predict(c, states, &chain);
+    for (int l = 0; l < kLanes; ++l) OfLane(l).HoldInChain(l, &chain);
+    SolveStep(c, &chain, steps);
+    const RodState* accepting[kLanes] = {};
+    for (int l = 0; l < count; ++l) {
+      reports[l] = steps[l].report;
+      if (!reports[l].converged) {
+        if (steps[l].active) OfLane(l).TakeBackStep();
+        continue;
+      }
+      OfLane(l).TakeStep(chain, l);
+      accepting[l] = &states[l];
+    }
+    Accept(c, chain, accepting);
+    for (int l = 0; l < count; ++l)
+      if (accepting[l]) OfLane(l).AccountForStep(dt, steps[l].load_power);
+    return reports;
+  }
+
   std::vector<Rod*> rods;
-  StepChain<Lanes> chain;
+  StepChain<T> chain;
   std::vector<SolveReport> reports;
 };
 
+int RodBatch::PreferredRods() {
+  return HasWideVectors() ? kLaneCount<WideLanes> : kLaneCount<Lanes>;
+}
+
 RodBatch::RodBatch(const std::vector<Rod*>& rods) {
   if (rods.empty() || rods.size() > kMaxRods)
-    throw std::invalid_argument("a batch has one to four rods");
+    throw std::invalid_argument("a batch has one to eight rods");
   for (const Rod* rod : rods)
     if (rod->elements() != rods.front()->elements() ||
         rod->model().a.clamped() != rods.front()->model().a.clamped() ||
@@ -33,47 +82,17 @@ RodBatch::RodBatch(const std::vector<Rod*>& rods) {
   for (const Rod* rod : rods)
     if (!rod->model().joints.empty())
       throw std::invalid_argument("a rod with joints is stepped by itself");
-  impl_ = std::make_unique<Impl>(rods);
+  if (rods.size() > kLaneCount<Lanes>)
+    impl_ = std::make_unique<ImplInLanes<WideLanes>>(rods);
+  else
+    impl_ = std::make_unique<ImplInLanes<Lanes>>(rods);
 }
 RodBatch::~RodBatch() = default;
 RodBatch::RodBatch(RodBatch&&) noexcept = default;
 RodBatch& RodBatch::operator=(RodBatch&&) noexcept = default;
 
 const std::vector<SolveReport>& RodBatch::Step(double dt, const std::vector<RodDrive>& drives) {
-  Impl& m = *impl_;
-  StepChain<Lanes>& chain = m.chain;
-  const int count = static_cast<int>(m.rods.size());
-  const StepCoefficients c(dt);
-  StepOfRod steps[kMaxRods];
-  RodState states[kMaxRods];
-  for (int l = 0; l < kMaxRods; ++l) {
-    Rod::Impl& rod = m.OfLane(l);
-    states[l] = rod.State();
-    steps[l].ends = &rod.ends;
-    if (l < count && drives[l].a) {
-      steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
-      rod.BeginStep(c, *drives[l].a, *drives[l].b);
-    }
-    rod.FillChain(l, &chain);
-  }
-  chain.SetHeld(m.OfLane(0).model.a.clamped(), m.OfLane(0).model.b.clamped());
-  Predict(c, states, &chain);
-  for (int l = 0; l < kMaxRods; ++l) m.OfLane(l).HoldInChain(l, &chain);
-  SolveStep(c, &chain, steps);
-  const RodState* accepting[kMaxRods] = {};
-  for (int l = 0; l < count; ++l) {
-    m.reports[l] = steps[l].report;
-    if (!m.reports[l].converged) {
-      if (steps[l].active) m.OfLane(l).TakeBackStep();
-      continue;
-    }
-    m.OfLane(l).TakeStep(chain, l);
-    accepting[l] = &states[l];
-  }
-  Accept(c, chain, accepting);
-  for (int l = 0; l < count; ++l)
-    if (accepting[l]) m.OfLane(l).AccountForStep(dt, steps[l].load_power);
-  return m.reports;
+  return impl_->Step(dt, drives);
 }
 
 }  // namespace cosserat_cable::rod

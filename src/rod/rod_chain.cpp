@@ -163,14 +163,14 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   stress_known_ = false;
 }
 
-template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<Lanes>>*) const;
-template void Rod::Impl::FillMasses(int, const ChainLayout&,
-                                    std::vector<NodeMass<LanePair>>*) const;
-template void Rod::Impl::FillChain(int, StepChain<Lanes>*) const;
-template void Rod::Impl::FillChain(int, StepChain<LanePair>*) const;
-template void Rod::Impl::HoldInChain(int, StepChain<Lanes>*) const;
-template void Rod::Impl::HoldInChain(int, StepChain<LanePair>*) const;
-template void Rod::Impl::TakeStep(const StepChain<Lanes>&, int);
-template void Rod::Impl::TakeStep(const StepChain<LanePair>&, int);
+#define COSSERAT_CABLE_INSTANTIATE(T)                                                            \
+  template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<T>>*) const; \
+  template void Rod::Impl::FillChain(int, StepChain<T>*) const;                                  \
+  template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
+  template void Rod::Impl::TakeStep(const StepChain<T>&, int);
+COSSERAT_CABLE_INSTANTIATE(WideLanes)
+COSSERAT_CABLE_INSTANTIATE(Lanes)
+COSSERAT_CABLE_INSTANTIATE(LanePair)
+#undef COSSERAT_CABLE_INSTANTIATE
 
 }  // namespace cosserat_cable::rod

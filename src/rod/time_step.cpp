@@ -98,6 +98,7 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
   add_loads(false, false, [&](int r) { return rods[r].report.converged; });
 }
 
+template void SolveStep(const StepCoefficients&, StepChain<WideLanes>*, StepOfRod*);
 template void SolveStep(const StepCoefficients&, StepChain<Lanes>*, StepOfRod*);
 template void SolveStep(const StepCoefficients&, StepChain<LanePair>*, StepOfRod*);
 

@@ -134,6 +134,17 @@ TEST(RodBatchTest, ALaneDoesNotDependOnItsNeighbours) {
   EXPECT_EQ(StepTogether({2, 2, 0}, 200)[2], all[0]);
 }
 
+TEST(RodBatchTest, EightAreLikeFour) {
+  constexpr double kTolerance = 1e-9;  // m, as above: other machine code may round otherwise
+  const std::vector<Vector3d> four = StepTogether({0, 1, 2, 3}, 200);
+  const std::vector<Vector3d> eight = StepTogether({3, 2, 1, 0, 0, 1, 2, 3}, 200);
+  for (int k = 0; k < 4; ++k) {
+    EXPECT_EQ(eight[3 - k], eight[4 + k]) << k;
+    EXPECT_LT((eight[3 - k] - four[k]).norm(), kTolerance) << k;
+  }
+  EXPECT_EQ(StepTogether({2, 1, 0, 3, 1, 1}, 200)[2], eight[3]);
+}
+
 TEST(RodBatchTest, AFailureStaysInItsLane) {
   const std::vector<Vector3d> expected = StepTogether({0, 3}, 1);
   Rod good = Settled(0), bad = Settled(1), other = Settled(3);

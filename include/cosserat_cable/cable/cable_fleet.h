@@ -10,8 +10,9 @@
 namespace cosserat_cable {
 
 /// Takes the same steps as CableSimulation::Step, several cables at a time: those with equal
-/// numbers of elements, and the same ends held rigidly, go in groups of four through the lanes of
-/// one kernel. What a cable does does not depend on the others, to the last bit.
+/// numbers of elements, and the same ends held rigidly, go in groups of four (of eight, where the
+/// machine's vectors are as wide) through the lanes of one kernel. What a cable does does not
+/// depend on the others, to the last bit.
 class CableFleet {
  public:
   /// The simulations outlive this, and are stepped through it only.

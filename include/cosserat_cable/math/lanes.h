@@ -1,5 +1,5 @@
 // Doubles side by side as one scalar type. The kernel's templates work on one double, or on lanes:
-// four cables, or the two halves of one.
+// four or eight cables, or the two halves of one.
 #pragma once
 
 #include <cmath>
@@ -16,6 +16,11 @@ struct VectorOf<2> {
 template <>
 struct VectorOf<4> {
   typedef double Type __attribute__((vector_size(32)));
+};
+
+template <>
+struct VectorOf<8> {
+  typedef double Type __attribute__((vector_size(64)));
 };
 
 template <int N>
@@ -68,6 +73,8 @@ struct alignas(8 * N) BasicLanes {
 
 /// Four cables, side by side.
 using Lanes = BasicLanes<4>;
+/// Eight cables: as many as the widest vectors hold.
+using WideLanes = BasicLanes<8>;
 /// The two halves of a cable.
 using LanePair = BasicLanes<2>;
 

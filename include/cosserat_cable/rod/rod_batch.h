@@ -16,12 +16,14 @@ struct RodDrive {
   const Load* load = nullptr;
 };
 
-/// Steps up to `kMaxRods` rods with the same number of elements and the same ends held. A rod's
-/// result does not depend, to the last bit, on which others are stepped with it; it may differ by
-/// rounding from Rod::Step's.
+/// Steps up to `kMaxRods` rods, up to four of them at the cost of four, with the same number of
+/// elements and the same ends held. A rod's result does not depend, to the last bit, on which
+/// others are stepped with it; it may differ by rounding from Rod::Step's.
 class RodBatch {
  public:
-  static constexpr int kMaxRods = 4;
+  static constexpr int kMaxRods = 8;
+  /// As many as this machine's vectors hold: more are stepped, but no faster.
+  static int PreferredRods();
 
   /// @throws std::invalid_argument where the rods do not fit together, or one has joints
   explicit RodBatch(const std::vector<Rod*>& rods);
@@ -35,6 +37,8 @@ class RodBatch {
 
  private:
   struct Impl;
+  template <class T>
+  struct ImplInLanes;
   std::unique_ptr<Impl> impl_;
 };
 
