@@ -1,0 +1,96 @@
+// Steps allocate nothing: what they cost does not depend on the allocator, and memory does not
+// grow.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "cosserat_cable/rod/point_loads.h"
+#include "cosserat_cable/rod/rod_batch.h"
+#include "rod/rod_cases.h"
+
+namespace {
+
+std::atomic<long> allocations{0};
+
+void* Allocate(std::size_t size, std::size_t alignment) {
+  ++allocations;
+  const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
+  void* memory = std::aligned_alloc(alignment, rounded > 0 ? rounded : alignment);
+  if (memory == nullptr) throw std::bad_alloc();
+  return memory;
+}
+
+}  // namespace
+
+// Of the whole test program.
+void* operator new(std::size_t size) { return Allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return Allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+namespace cosserat_cable::rod {
+namespace {
+
+constexpr double kDt = 1e-3;
+constexpr int kSteps = 50;
+const Pose kA;
+const Pose kB{{0.1, 0, 0}, Eigen::Quaterniond(0, 0, 1, 0)};
+
+Rod Arch(int elements) {
+  const RodModel model = RoundCable(0.2, 0.008, 0.15, 0.008, 0.006, 1e-4, 5e-5, elements);
+  Rod rod(model);
+  rod.SetConfiguration(BowedShape(kA, kB, model.length, elements, model.gravity));
+  EXPECT_TRUE(rod.Equilibrate().converged);
+  return rod;
+}
+
+Pose Shifted(Pose clamp, int step) {
+  clamp.p.x() += 1e-3 * std::sin(0.2 * step);
+  return clamp;
+}
+
+TEST(AllocationTest, TheCounterCounts) {
+  const long before = allocations;
+  ::operator delete(::operator new(8));
+  EXPECT_EQ(allocations - before, 1);
+}
+
+TEST(AllocationTest, ASingleRodsStepsAllocateNothing) {
+  Rod rod = Arch(41);
+  const PointLoads load(0.2, {{0.07, {0.1, 0.2, 0}}});
+  ASSERT_TRUE(rod.Step(kDt, kA, kB, &load).converged);  // sets up its memory
+  const long before = allocations;
+  bool converged = true;
+  for (int s = 1; s <= kSteps; ++s)
+    converged &= rod.Step(kDt, Shifted(kA, s), Shifted(kB, s), &load).converged;
+  EXPECT_EQ(allocations - before, 0);
+  EXPECT_TRUE(converged);
+}
+
+TEST(AllocationTest, ABatchsStepsAllocateNothing) {
+  for (const int count : {3, 4, 7}) {
+    std::vector<Rod> rods(count, Arch(40));
+    std::vector<Rod*> pointers;
+    for (Rod& rod : rods) pointers.push_back(&rod);
+    RodBatch batch(pointers);
+    std::vector<RodDrive> drives(count);
+    bool converged = true;
+    const long before = allocations;
+    for (int s = 1; s <= kSteps; ++s) {
+      const Pose a = Shifted(kA, s), b = Shifted(kB, s);
+      for (RodDrive& drive : drives) drive = {&a, &b, nullptr};
+      for (const SolveReport& report : batch.Step(kDt, drives)) converged &= report.converged;
+    }
+    EXPECT_EQ(allocations - before, 0) << count;
+    EXPECT_TRUE(converged);
+  }
+}
+
+}  // namespace
+}  // namespace cosserat_cable::rod
