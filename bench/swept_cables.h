@@ -37,17 +37,19 @@ class Drive {
   std::size_t k_ = 0;
 };
 
-/// Any number of cables, stepped side by side in as many batches as it takes.
+/// Any number of cables, stepped side by side in as many batches as it takes; one that is left over
+/// is stepped by itself.
 class Fleet {
  public:
   Fleet(int cables, int elements) {
+    constexpr int kMost = rod::RodBatch::kMaxRods;
     const rod::Rod rod = Settled(CableP2(elements));
     rods_.reserve(cables);
     for (int i = 0; i < cables; ++i) rods_.push_back(rod);
-    for (int first = 0; first < cables; first += rod::RodBatch::kMaxRods) {
+    batched_ = cables % kMost == 1 ? cables - 1 : cables;
+    for (int first = 0; first < batched_; first += kMost) {
       std::vector<rod::Rod*> some;
-      for (int i = first; i < cables && i < first + rod::RodBatch::kMaxRods; ++i)
-        some.push_back(&rods_[i]);
+      for (int i = first; i < batched_ && i < first + kMost; ++i) some.push_back(&rods_[i]);
       sizes_.push_back(some.size());
       batches_.emplace_back(some, batches_.empty() ? nullptr : &batches_.front());
     }
@@ -56,18 +58,22 @@ class Fleet {
   /// Newton iterations, of all cables. @throws std::runtime_error where a step does not converge
   int Step(const Drive& drive) {
     int iterations = 0;
+    const auto add = [&](const rod::SolveReport& report) {
+      if (!report.converged) throw std::runtime_error("a step did not converge");
+      iterations += report.iterations;
+    };
     for (std::size_t i = 0; i < batches_.size(); ++i) {
       drives_.assign(sizes_[i], {&drive.a(), &drive.b(), nullptr});
-      for (const rod::SolveReport& report : batches_[i].Step(kDt, drives_)) {
-        if (!report.converged) throw std::runtime_error("a step did not converge");
-        iterations += report.iterations;
-      }
+      for (const rod::SolveReport& report : batches_[i].Step(kDt, drives_)) add(report);
     }
+    for (std::size_t i = batched_; i < rods_.size(); ++i)
+      add(rods_[i].Step(kDt, drive.a(), drive.b()));
     return iterations;
   }
 
  private:
   std::vector<rod::Rod> rods_;
+  int batched_;  // so many of them
   std::vector<std::size_t> sizes_;
   std::vector<rod::RodBatch> batches_;
   std::vector<rod::RodDrive> drives_;
