@@ -1,5 +1,6 @@
 #include "peer_search.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mujoco_chain.h"
@@ -65,10 +66,18 @@ std::vector<Trial> TryMujoco(const SweptArch& arch, const Target& target, const 
 }
 
 const Trial* Cheapest(const std::vector<Trial>& trials, double tolerance) {
+  const auto within = [&](const Trial& t) { return t.run.done() && t.apex_error <= tolerance; };
+  // Where a finer step is worse, errors of elements and steps cancel: luck is not accuracy.
+  const auto by_luck = [&](const Trial& trial) {
+    return std::any_of(trials.begin(), trials.end(), [&](const Trial& finer) {
+      return finer.elements == trial.elements && finer.integrator == trial.integrator &&
+             finer.solver == trial.solver && finer.dt < trial.dt && finer.run.done() &&
+             !within(finer);
+    });
+  };
   const Trial* best = nullptr;
   for (const Trial& trial : trials)
-    if (trial.run.done() && trial.apex_error <= tolerance &&
-        (!best || trial.run.seconds < best->run.seconds))
+    if (within(trial) && !by_luck(trial) && (!best || trial.run.seconds < best->run.seconds))
       best = &trial;
   return best;
 }

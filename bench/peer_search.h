@@ -41,7 +41,8 @@ std::vector<Trial> TryRod(const SweptArch& arch, const Target& target, const Gri
 std::vector<Trial> TryMujoco(const SweptArch& arch, const Target& target, const MujocoGrid& grid,
                              double tolerance, const Reporter& report);
 
-/// The cheapest with an apex error within the tolerance; nullptr: none is.
+/// The cheapest with an apex error within the tolerance, also at all shorter steps that were tried;
+/// nullptr: none is.
 const Trial* Cheapest(const std::vector<Trial>& trials, double tolerance);
 /// The one with the smallest apex error; nullptr: none was done.
 const Trial* MostAccurate(const std::vector<Trial>& trials);

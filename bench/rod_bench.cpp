@@ -46,7 +46,7 @@ void StepFleet(benchmark::State& state, int cables, int elements) {
 }
 
 void RodsInLanes(benchmark::State& state) {
-  StepFleet(state, rod::RodBatch::kMaxRods, static_cast<int>(state.range(0)));
+  StepFleet(state, rod::RodBatch::PreferredRods(), static_cast<int>(state.range(0)));
 }
 
 void ManyRods(benchmark::State& state) {

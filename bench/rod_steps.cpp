@@ -53,7 +53,7 @@ void PrintInstructions(bool lanes, int elements, int steps) {
   };
   const auto prepare = [&] {
     if (lanes)
-      fleet.emplace(rod::RodBatch::kMaxRods, elements);
+      fleet.emplace(rod::RodBatch::PreferredRods(), elements);
     else
       rod.emplace(Settled(CableP2(elements)));
     for (int k = 0; k < kBefore; ++k) step();
@@ -69,7 +69,7 @@ int Run(int argc, char** argv) {
   const std::string what = argc > 1 ? argv[1] : "";
   if (what == "build" && argc == 2) {
     std::printf("{\"compiler\": \"%s\", \"flags\": \"%s\", \"lanes\": %d}\n",
-                COSSERAT_CABLE_COMPILER, COSSERAT_CABLE_FLAGS, rod::RodBatch::kMaxRods);
+                COSSERAT_CABLE_COMPILER, COSSERAT_CABLE_FLAGS, rod::RodBatch::PreferredRods());
   } else if (what == "memory" && argc == 4) {
     PrintMemory(std::atoi(argv[2]), std::atoi(argv[3]));
   } else if ((what == "one" || what == "lanes") && argc == 4) {

@@ -42,7 +42,7 @@ class Drive {
 class Fleet {
  public:
   Fleet(int cables, int elements) {
-    constexpr int kMost = rod::RodBatch::kMaxRods;
+    const int kMost = rod::RodBatch::PreferredRods();
     const rod::Rod rod = Settled(CableP2(elements));
     rods_.reserve(cables);
     for (int i = 0; i < cables; ++i) rods_.push_back(rod);
@@ -51,7 +51,7 @@ class Fleet {
       std::vector<rod::Rod*> some;
       for (int i = first; i < batched_ && i < first + kMost; ++i) some.push_back(&rods_[i]);
       sizes_.push_back(some.size());
-      batches_.emplace_back(some, batches_.empty() ? nullptr : &batches_.front());
+      batches_.emplace_back(some);
     }
   }
 

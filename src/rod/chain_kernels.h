@@ -12,8 +12,8 @@ struct RodState {
   NodeRates<double>*rate, *algorithm;  // true accelerations, generalised-alpha's own
 };
 
-/// Declares each kernel for eight rods, for four, and for one in halves: a function template could not be
-/// compiled for several instruction sets.
+/// Declares each kernel for eight rods, for four, and for one in halves: a function template could
+/// not be compiled for several instruction sets.
 #define COSSERAT_CABLE_DECLARE_CHAIN_KERNELS(T)                                                   \
   /** The first iterate: constant velocity. `rods`: by lane; of one in halves, the same twice. */ \
   void Predict(const StepCoefficients& c, const RodState* rods, StepChain<T>* w);                 \

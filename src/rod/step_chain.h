@@ -1,6 +1,6 @@
 // The unknowns of a time step and what it needs to find them, in the order in which the solver runs
-// over them: four or eight rods side by side, each from its first node to its last; or one rod from both
-// ends to a node in its middle, so that its halves are side by side.
+// over them: four or eight rods side by side, each from its first node to its last; or one rod from
+// both ends to a node in its middle, so that its halves are side by side.
 #pragma once
 
 #include <algorithm>

@@ -54,7 +54,8 @@ Case RandomCase() {
     const double w = 2 * M_PI * uniform(5, 40);
     return [=](double t) {
       const double f = std::pow(1 - std::cos(w * t), 2);  // from rest, with no jump
-      return Pose{X.p + f * axis, X.q * Quaterniond(AngleAxisd(f * about.norm(), about.normalized()))};
+      return Pose{X.p + f * axis,
+                  X.q * Quaterniond(AngleAxisd(f * about.norm(), about.normalized()))};
     };
   };
   c.a = shaken(a);
@@ -83,9 +84,10 @@ std::vector<std::vector<Vector3d>> Run(const Case& c) {
 }
 
 /// `map` takes a position in the one case to where it is in the other; node i is there `node(i)`.
-void ExpectSame(const Case& one, const Case& other,
-                const std::function<Vector3d(const Vector3d&, int shape)>& map,
-                const std::function<int(int)>& node = [](int i) { return i; }) {
+void ExpectSame(
+    const Case& one, const Case& other,
+    const std::function<Vector3d(const Vector3d&, int shape)>& map,
+    const std::function<int(int)>& node = [](int i) { return i; }) {
   const auto first = Run(one), second = Run(other);
   RC_PRE(!first.empty());
   RC_ASSERT(first.size() == second.size());
