@@ -1,28 +1,17 @@
 """The figures of docs/performance.md."""
 
-import os
-import sys
+import page_figures
+from matplotlib import ticker
 
-import tool
-
-try:
-    import matplotlib
-except ImportError as missing:
-    sys.exit(f'{missing}: install python3-matplotlib, and run with /usr/bin/python3')
-matplotlib.use('Agg')
-# The same bytes each time, and text that a browser sets.
-matplotlib.rcParams.update({'svg.hashsalt': 'bench', 'svg.fonttype': 'none', 'font.size': 8,
-                            'axes.spines.top': False, 'axes.spines.right': False})
-import matplotlib.pyplot as plt  # noqa: E402
-
-BLUE, ORANGE = '#0072B2', '#D55E00'  # Okabe and Ito's
+plt = page_figures.pyplot('bench')
+BLUE, ORANGE = page_figures.COLOURS[:2]
 
 
 def curve(axes, costs, **style):
     axes.plot([int(n) for n in costs], list(costs.values()), marker='o', markersize=4, **style)
     axes.set_xscale('log', base=2)
     axes.set_xticks([int(n) for n in costs])
-    axes.xaxis.set_major_formatter(matplotlib.ticker.ScalarFormatter())
+    axes.xaxis.set_major_formatter(ticker.ScalarFormatter())
     axes.minorticks_off()
 
 
@@ -45,12 +34,5 @@ def over_cables(numbers):
 
 def draw(numbers, target):
     """Pictures in the folder `target`."""
-    os.makedirs(target, exist_ok=True)
-    for name, figure in (('cost_over_elements', over_elements(numbers)),
-                         ('cost_over_cables', over_cables(numbers))):
-        figure.tight_layout()
-        path = os.path.join(target, name + '.svg')
-        with tool.whole_file(path) as temporary:
-            figure.savefig(temporary, format='svg', metadata={'Date': None})
-        plt.close(figure)
-        print(path)
+    page_figures.save(over_elements(numbers), target, 'cost_over_elements')
+    page_figures.save(over_cables(numbers), target, 'cost_over_cables')

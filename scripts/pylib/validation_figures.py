@@ -2,24 +2,13 @@
 
 import csv
 import os
-import sys
 
 import numpy as np
 
-import tool
+import page_figures
+from page_figures import COLOURS
 
-try:
-    import matplotlib
-except ImportError as missing:
-    sys.exit(f'{missing}: install python3-matplotlib, and run with /usr/bin/python3')
-matplotlib.use('Agg')
-# The same bytes each time, and text that a browser sets.
-matplotlib.rcParams.update({'svg.hashsalt': 'validation', 'svg.fonttype': 'none', 'font.size': 8,
-                            'axes.spines.top': False, 'axes.spines.right': False})
-import matplotlib.pyplot as plt  # noqa: E402
-
-# Okabe and Ito's colours, told apart by colour-blind readers as well.
-COLOURS = ('#0072B2', '#D55E00', '#009E73', '#CC79A7', '#E69F00', '#56B4E9', '#999999', '#000000')
+plt = page_figures.pyplot('validation')
 PUBLISHED = dict(marker='o', linestyle='none', markerfacecolor='none', color='black', markersize=6,
                  label='published')
 
@@ -97,9 +86,5 @@ def draw(source, target):
                          ('pendulum', pendulum(tables['pendulum'])),
                          ('sweep_in_plane', sweep(tables['sweep'], 2)),
                          ('sweep_out_of_plane', sweep(tables['sweep'], 4))):
-        figure.tight_layout()
-        path = os.path.join(target, name + '.svg')
-        with tool.whole_file(path) as temporary:
-            figure.savefig(temporary, format='svg', metadata={'Date': None})
+        page_figures.save(figure, target, name)
         plt.close(figure)
-        print(path)
