@@ -9,10 +9,10 @@ from cosserat_cable.msg import ApexTelemetry
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from visualization_msgs.msg import MarkerArray
 
-SECONDS = 6  # of the recording's 7 have to come
+SECONDS = 3  # of the recording's 4 have to come
 TELEMETRY_RATE = 200  # [Hz]
 MARKER_RATE = 30  # [Hz]
-TIMEOUT = 75
+TIMEOUT = 150
 
 
 class Behind(unittest.TestCase):
