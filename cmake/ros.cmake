@@ -20,7 +20,6 @@ find_package(catkin REQUIRED COMPONENTS
   visualization_msgs
 )
 find_package(CLI11 REQUIRED)
-find_package(TBB REQUIRED)
 
 add_message_files(DIRECTORY msg FILES ApexTelemetry.msg)
 generate_messages(DEPENDENCIES std_msgs)
@@ -28,6 +27,8 @@ generate_messages(DEPENDENCIES std_msgs)
 set(rooms
   cosserat_cable_ros
   cosserat_cable_vehicle
+  cosserat_cable_identification
+  cosserat_cable_measurement
   cosserat_cable_cable
   cosserat_cable_contact
   cosserat_cable_rod

@@ -16,6 +16,8 @@ BELOW = {
     'rod': {'math'},
     'contact': {'math', 'input'},
     'cable': {'rod', 'contact', 'input', 'math'},
+    'measurement': {'cable', 'rod', 'contact', 'input', 'math'},
+    'identification': {'measurement', 'cable', 'rod', 'contact', 'input', 'math'},
     'vehicle': {'math', 'input', 'contact'},
 }
 # These may include every room, and ROS.
