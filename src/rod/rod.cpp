@@ -45,6 +45,14 @@ void Rod::SetClamps(const Pose& a, const Pose& b) {
   impl_->ends.b.Start(Motion::Resting(b));
 }
 
+void Rod::SetVelocities(const std::vector<Eigen::Vector3d>& v,
+                        const std::vector<Eigen::Vector3d>& omega) {
+  for (int i = impl_->first_free(); i <= impl_->last_free(); ++i) {
+    impl_->w.node[i].v = ToSmall(v[i]);
+    impl_->w.node[i].omega = ToSmall(omega[i]);
+  }
+}
+
 void Rod::AddRigidMotion(const Motion& frame) {
   const Eigen::Matrix3d R = frame.X.q.toRotationMatrix();
   const Eigen::Vector3d omega = R * frame.omega, alpha = R * frame.alpha;

@@ -80,6 +80,11 @@ class Rod : public Centreline {
   /// Sets nodes and clamps moving as a rigid body: with a frame that has this motion in the world.
   void AddRigidMotion(const Motion& frame);
 
+  /// Sets the nodes' velocities [m/s] (world) and angular velocities [rad/s] (section frame);
+  /// `elements + 1` of each. What the clamps hold stays at rest.
+  void SetVelocities(const std::vector<Eigen::Vector3d>& v,
+                     const std::vector<Eigen::Vector3d>& omega);
+
   /// Static equilibrium by energy minimisation from the present configuration (regularised Newton
   /// with a line search) with the ends held by the clamps. Velocities become zero. Under a load
   /// without a potential, by Newton's method with bounded steps: then from near enough.

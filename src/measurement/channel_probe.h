@@ -1,0 +1,30 @@
+// What a rig's channels show at an instant.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cosserat_cable/measurement/measurement_set.h"
+#include "rig.h"
+
+namespace cosserat_cable {
+
+/// The quantities of which the channels are values or time derivatives: a position's component for
+/// velocity and acceleration, the angle for its rate; in clamp a's frame where a channel says so.
+class ChannelProbe {
+ public:
+  explicit ChannelProbe(const std::vector<Channel>& channels);
+
+  void Sample(const Rig& rig, Eigen::Ref<Eigen::VectorXd> values);
+  /// Of the channel: 0, 1 or 2, the derivative of the sampled quantity that it shows.
+  static int DerivativeOrder(Quantity quantity);
+
+ private:
+  double Angle(const Rig& rig, double s);
+
+  const std::vector<Channel>& channels_;
+  std::vector<double>
+      twist_;  // scratch: rotation about the tangent from clamp a to each node [rad]
+};
+
+}  // namespace cosserat_cable

@@ -1,0 +1,29 @@
+// Where an experiment's clamps are at a time, or at a step of a quasi-static one.
+#pragma once
+
+#include <memory>
+
+#include "cosserat_cable/math/pose_curve.h"
+#include "cosserat_cable/measurement/measurement_set.h"
+
+namespace cosserat_cable {
+
+/// One clamp. A free end has none: its pose is the identity and means nothing.
+class ClampPath {
+ public:
+  explicit ClampPath(const EndCondition& end);
+
+  bool moves() const { return moving_; }
+  /// At a time [s]: C2 between the samples, at rest before the first and after the last.
+  Motion At(double t);
+  /// At a step of a quasi-static experiment; after the last row that row's pose holds.
+  Pose AtStep(int step) const;
+
+ private:
+  bool moving_ = false;
+  Pose fixed_;
+  std::vector<Pose> rows_;
+  PoseCurve curve_;
+};
+
+}  // namespace cosserat_cable

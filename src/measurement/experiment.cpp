@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include "cosserat_cable/measurement/measurement_set.h"
+
+namespace cosserat_cable {
+
+const char* ToString(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kPosition:
+      return "position";
+    case Quantity::kVelocity:
+      return "velocity";
+    case Quantity::kAcceleration:
+      return "acceleration";
+    case Quantity::kAngle:
+      return "angle";
+    case Quantity::kRate:
+      return "rate";
+    case Quantity::kForce:
+      return "force";
+    case Quantity::kMoment:
+      return "moment";
+  }
+  return "";
+}
+
+double Experiment::start_time() const {
+  double first = record.t.empty() ? 0.0 : record.t.front();
+  for (const EndCondition* end : {&a, &b})
+    if (end->motion && !end->motion->t.empty()) first = std::min(first, end->motion->t.front());
+  return first;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,209 @@
+#include "cosserat_cable/measurement/experiment_simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "channel_probe.h"
+#include "cosserat_cable/rod/modes.h"
+#include "cosserat_cable/rod/rod_batch.h"
+#include "rig.h"
+#include "trace.h"
+
+namespace cosserat_cable {
+namespace {
+
+// A release is a jump of the accelerations, which a step of full size would spread over its length.
+// The first step is taken in parts that begin with dt/2^kGrading and double.
+constexpr int kGrading = 10;
+// A step that does not converge is taken in parts of down to dt/2^kMaxHalvings.
+constexpr int kMaxHalvings = 5;
+// Two runs farther apart than this part of a channel's range say nothing about a third.
+constexpr double kNearEnough = 0.1;
+
+/// Samples that are asked for: those up to `until`.
+int SamplesUntil(const std::vector<double>& t, double until) {
+  return static_cast<int>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
+}
+
+/// One of several rigs that are stepped together.
+struct Run {
+  std::unique_ptr<Rig> rig;
+  SimulatedRecord* result;
+};
+
+/// Takes the step from `t` by `dt` alone, in ever smaller parts.
+bool StepInParts(double t, double dt, Rig* rig) {
+  const rod::Rod before = *rig->rod();
+  for (int halvings = 1; halvings <= kMaxHalvings; ++halvings) {
+    const int parts = 1 << halvings;
+    bool ok = true;
+    for (int k = 1; k <= parts && ok; ++k) {
+      rig->MoveTo(t + dt * k / parts);
+      ok = rig->rod()->Step(dt / parts, rig->clamp_a(), rig->clamp_b(), rig->load()).converged;
+    }
+    if (ok) return true;
+    *rig->rod() = rod::Rod(before);
+  }
+  return false;
+}
+
+/// Rigs in the lanes of one kernel. Those that fail are left out from then on.
+class Side {
+ public:
+  explicit Side(std::vector<Run> runs) : runs_(std::move(runs)), drives_(runs_.size()) {
+    std::vector<rod::Rod*> rods;
+    for (Run& run : runs_) rods.push_back(run.rig->rod());
+    if (rods.size() > 1) batch_ = std::make_unique<rod::RodBatch>(rods);
+  }
+
+  void Step(double t, double dt) {
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      drives_[k] = {};
+      if (!runs_[k].result->ok) continue;
+      Rig& rig = *runs_[k].rig;
+      rig.MoveTo(t + dt);
+      drives_[k] = {&rig.clamp_a(), &rig.clamp_b(), rig.load()};
+    }
+    if (batch_) {
+      const std::vector<rod::SolveReport>& reports = batch_->Step(dt, drives_);
+      for (std::size_t k = 0; k < runs_.size(); ++k)
+        if (drives_[k].a && !reports[k].converged) Retry(t, dt, &runs_[k]);
+    } else if (drives_[0].a) {
+      const rod::SolveReport report =
+          runs_[0].rig->rod()->Step(dt, *drives_[0].a, *drives_[0].b, drives_[0].load);
+      if (!report.converged) Retry(t, dt, &runs_[0]);
+    }
+  }
+
+  const std::vector<Run>& runs() const { return runs_; }
+  bool AnyRunning() const {
+    return std::any_of(runs_.begin(), runs_.end(), [](const Run& run) { return run.result->ok; });
+  }
+
+ private:
+  static void Retry(double t, double dt, Run* run) {
+    if (StepInParts(t, dt, run->rig.get())) return;
+    run->result->ok = false;
+    run->result->message = "Newton's iteration does not converge at t = " + std::to_string(t) +
+                           " s, with steps down to " +
+                           std::to_string(dt * 1e6 / (1 << kMaxHalvings)) + " us";
+  }
+
+  std::vector<Run> runs_;
+  std::unique_ptr<rod::RodBatch> batch_;
+  std::vector<rod::RodDrive> drives_;
+};
+
+void SimulateMotion(const Experiment& experiment, int samples, double dt, std::vector<Run> runs) {
+  const int channels = static_cast<int>(experiment.channels.size());
+  const double start = experiment.start_time();
+  const std::vector<double>& times = experiment.record.t;
+  const int steps =
+      1 + std::max(1, static_cast<int>(std::ceil((times[samples - 1] - start) / dt - 1e-9)));
+  Side side(std::move(runs));
+  ChannelProbe probe(experiment.channels);
+  std::vector<Trace> traces(side.runs().size(), Trace(start, dt, steps, channels));
+  const auto sample = [&](int step) {
+    for (std::size_t k = 0; k < traces.size(); ++k)
+      if (side.runs()[k].result->ok) probe.Sample(*side.runs()[k].rig, traces[k].at(step));
+  };
+  sample(0);
+  double t = start, part = std::ldexp(dt, -kGrading);
+  side.Step(t, part);
+  for (t += part; part < dt; t += part, part *= 2) side.Step(t, part);
+  for (int step = 1; step < steps; ++step) {
+    if (step > 1) side.Step(start + (step - 1) * dt, dt);
+    if (!side.AnyRunning()) break;
+    sample(step);
+  }
+  for (std::size_t k = 0; k < traces.size(); ++k) {
+    SimulatedRecord& result = *side.runs()[k].result;
+    if (!result.ok) continue;
+    result.values.resize(samples, channels);
+    for (int c = 0; c < channels; ++c) {
+      const int order = ChannelProbe::DerivativeOrder(experiment.channels[c].quantity);
+      for (int i = 0; i < samples; ++i)
+        result.values(i, c) = traces[k].Evaluate(c, times[i], order);
+    }
+  }
+}
+
+void SimulateStatics(const Experiment& experiment, int samples, Run* run) {
+  SimulatedRecord& result = *run->result;
+  result.values.resize(samples, static_cast<int>(experiment.channels.size()));
+  ChannelProbe probe(experiment.channels);
+  Eigen::VectorXd row(result.values.cols());
+  for (int i = 0; i < samples && result.ok; ++i) {
+    result.ok = run->rig->Equilibrate(static_cast<int>(experiment.record.t[i]), &result.message);
+    if (!result.ok) break;
+    probe.Sample(*run->rig, row);
+    result.values.row(i) = row.transpose();
+  }
+}
+
+}  // namespace
+
+std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
+                                                const std::vector<Specimen>& specimens,
+                                                const SimulationOptions& options) {
+  std::vector<SimulatedRecord> results(specimens.size());
+  const int samples = SamplesUntil(experiment.record.t, options.until);
+  const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
+  for (std::size_t first = 0; first < specimens.size(); first += together) {
+    std::vector<Run> runs;
+    for (std::size_t k = first; k < std::min(first + together, specimens.size()); ++k) {
+      Run run{std::make_unique<Rig>(experiment, specimens[k], options.elements), &results[k]};
+      results[k].ok = run.rig->Start(&results[k].message);
+      if (results[k].ok) runs.push_back(std::move(run));
+    }
+    if (runs.empty() || samples == 0) continue;
+    if (experiment.quasi_static())
+      for (Run& run : runs) SimulateStatics(experiment, samples, &run);
+    else
+      SimulateMotion(experiment, samples, options.dt, std::move(runs));
+  }
+  return results;
+}
+
+RefinedRecord SimulateRefined(const Experiment& experiment, const Specimen& specimen,
+                              const SimulationOptions& options) {
+  SimulationOptions coarse = options;
+  coarse.dt = 2 * options.dt;
+  coarse.elements = options.elements / 2;
+  RefinedRecord refined;
+  refined.record = SimulateExperiment(experiment, {specimen}, options).front();
+  if (!refined.record.ok) return refined;
+  const SimulatedRecord other = SimulateExperiment(experiment, {specimen}, coarse).front();
+  if (!other.ok) {
+    refined.discretisation = 1;
+    return refined;
+  }
+  const Eigen::MatrixXd& fine = refined.record.values;
+  const Eigen::MatrixXd correction = (fine - other.values) / 3;
+  for (int c = 0; c < fine.cols(); ++c) {
+    const double range = fine.col(c).maxCoeff() - fine.col(c).minCoeff();
+    const double scale = std::max(range, fine.col(c).cwiseAbs().maxCoeff() * 1e-9);
+    if (scale > 0)
+      refined.discretisation =
+          std::max(refined.discretisation, correction.col(c).cwiseAbs().maxCoeff() / scale);
+  }
+  refined.extrapolated = refined.discretisation < kNearEnough;
+  if (refined.extrapolated) refined.record.values += correction;
+  return refined;
+}
+
+std::vector<SwingShape> FindSwingShapes(const Experiment& experiment, const Specimen& specimen,
+                                        int elements, int count) {
+  Specimen resting = specimen;
+  resting.swing = Swing();
+  Rig rig(experiment, resting, elements);
+  std::string message;
+  std::vector<SwingShape> shapes;
+  if (!rig.Start(&message)) return shapes;
+  for (const rod::Mode& mode : rod::FindModes(std::as_const(rig).rod(), count, rig.load()))
+    shapes.push_back({mode.w, mode.zeta, mode.displacement, mode.rotation});
+  return shapes;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,210 @@
+#include "rig.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat_cable/cable/cable_rod.h"
+#include "cosserat_cable/math/rotation.h"
+#include "cosserat_cable/rod/initial_shape.h"
+#include "pull.h"
+
+namespace cosserat_cable {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// A disc is turned to its start in parts of this [rad], so that no element turns too far at once.
+constexpr double kTwistStride = 0.5;
+
+/// What a clamp lets go.
+void Release(const EndCondition& end, rod::EndModel* model) {
+  for (int k = 0; k < 3; ++k) {
+    if (end.translation_free[k]) model->translation[k] = false;
+    if (end.rotation_free[k]) model->rotation[k] = false;
+  }
+  if (end.roll_unknown) model->rotation[2] = false;
+}
+
+/// An end that no clamp holds; a dashpot about the axis stays (the disc's D_E).
+void LetGo(rod::EndModel* model) {
+  const double D_E = model->damping.z();
+  *model = rod::EndModel::Free();
+  model->damping.z() = D_E;
+}
+
+/// Values given at evenly spread nodes, at others.
+Vector3d Resampled(const std::vector<Vector3d>& values, double fraction) {
+  const double x = fraction * static_cast<double>(values.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), values.size() - 2);
+  return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
+}
+
+}  // namespace
+
+Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements)
+    : experiment_(experiment),
+      specimen_(specimen),
+      elements_(elements),
+      path_a_(experiment.a),
+      path_b_(experiment.b) {
+  if (!experiment.load.samples.empty()) {
+    SetLoads(experiment.start_time());
+  }
+}
+
+rod::RodModel Rig::Model(Turn disc) const {
+  rod::RodModel model = MakeRodModel(specimen_.cable, experiment_.gravity_W);
+  model.elements = elements_;
+  Release(experiment_.a, &model.a);
+  switch (experiment_.b.kind) {
+    case EndCondition::Kind::kClamp:
+      Release(experiment_.b, &model.b);
+      break;
+    case EndCondition::Kind::kFree:
+      LetGo(&model.b);
+      break;
+    case EndCondition::Kind::kDisc: {
+      const double J = specimen_.disc_inertia;
+      model.bodies.push_back(
+          {specimen_.cable.length, experiment_.b.disc.mass, Vector3d(0.5 * J, 0.5 * J, J)});
+      LetGo(&model.b);
+      if (experiment_.b.disc.guided) {
+        model.b.translation = {true, true, false};
+        model.b.rotation = {true, true, false};
+      }
+      if (disc == Turn::kHeld) model.b.rotation[2] = true;
+      break;
+    }
+  }
+  return model;
+}
+
+Pose Rig::TiltedA(const Pose& X_WC) const {
+  return {X_WC.p, (X_WC.q * RotationExp(specimen_.tilt_a)).normalized()};
+}
+
+void Rig::SetLoads(double t) {
+  const ExperimentLoad& load = experiment_.load;
+  std::vector<rod::PointLoad> now;
+  if (load.file.empty()) {
+    for (const ExperimentLoad::Sample& sample : load.samples)
+      now.push_back({sample.s, sample.force_W, Vector3d::Zero(), false});
+  } else {
+    const auto after = std::upper_bound(
+        load.samples.begin(), load.samples.end(), t,
+        [](double time, const ExperimentLoad::Sample& sample) { return time < sample.t; });
+    const auto right = after == load.samples.end() ? after - 1 : after;
+    const auto left = after == load.samples.begin() ? after : after - 1;
+    const double span = right->t - left->t;
+    const double x = span > 0 ? std::clamp((t - left->t) / span, 0.0, 1.0) : 0.0;
+    now.push_back({left->s + x * (right->s - left->s),
+                   left->force_W + x * (right->force_W - left->force_W), Vector3d::Zero(), false});
+  }
+  if (loads_)
+    loads_->loads = std::move(now);
+  else
+    loads_.emplace(specimen_.cable.length, std::move(now));
+}
+
+bool Rig::Settle(rod::Rod* rod, std::string* message) {
+  const auto equilibrate = [&] {
+    if (rod->Equilibrate(load()).converged) return true;
+    *message = "no static equilibrium found at the start";
+    return false;
+  };
+  const EndCondition& b = experiment_.b;
+  if (b.kind == EndCondition::Kind::kClamp) {
+    rod->SetConfiguration(
+        rod::BowedShape(a_, b_, specimen_.cable.length, elements_, experiment_.gravity_W));
+  } else {
+    rod->SetConfiguration(rod::StraightShape(a_, specimen_.cable.length, elements_));
+    b_ = rod->pose(elements_);
+  }
+  if (!equilibrate()) return false;
+  if (const auto& near = experiment_.start.near) {
+    if (!PullTo(*near, rod)) {
+      *message = "the cable cannot be brought near the position that start.near asks for";
+      return false;
+    }
+    if (!equilibrate()) return false;
+  }
+  return true;
+}
+
+bool Rig::Start(std::string* message) {
+  const double t = experiment_.start_time();
+  const bool statics = experiment_.quasi_static();
+  const StartCondition& start = experiment_.start;
+  a_ = TiltedA(statics ? path_a_.AtStep(0) : path_a_.At(t).X);
+  b_ = statics ? path_b_.AtStep(0) : path_b_.At(t).X;
+  if (!experiment_.load.samples.empty()) SetLoads(t);
+
+  // A disc is held about its axis until it is let go.
+  const bool twisted = start.kind == StartCondition::Kind::kTwisted;
+  rod::Rod settling(Model(twisted ? Turn::kHeld : Turn::kFree));
+  if (!Settle(&settling, message)) return false;
+  if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, &settling)) {
+    *message = "the cable cannot be pulled to the position that start.held asks for";
+    return false;
+  }
+  if (twisted) {
+    const Pose rest = settling.pose(elements_);
+    const int strides =
+        std::max(1, static_cast<int>(std::ceil(std::abs(start.twisted) / kTwistStride)));
+    for (int k = 1; k <= strides; ++k) {
+      const double angle = start.twisted * k / strides;
+      settling.SetClamps(a_, {rest.p, rest.q * RotationExp(Vector3d(0, 0, angle)).normalized()});
+      if (!settling.Equilibrate(load()).converged) {
+        *message = "no static equilibrium found with the disc held at its angle";
+        return false;
+      }
+    }
+  }
+
+  std::vector<Pose> nodes(elements_ + 1);
+  for (int i = 0; i <= elements_; ++i) nodes[i] = settling.pose(i);
+  const Swing& swing = specimen_.swing;
+  const auto fraction = [&](int i) { return static_cast<double>(i) / elements_; };
+  if (!swing.displacement.empty())
+    for (int i = 0; i <= elements_; ++i) {
+      nodes[i].p += Resampled(swing.displacement, fraction(i));
+      nodes[i].q = (nodes[i].q * RotationExp(Resampled(swing.rotation, fraction(i)))).normalized();
+    }
+  if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
+  rod_ = std::make_unique<rod::Rod>(Model(Turn::kFree));
+  rod_->SetConfiguration(nodes);
+  rod_->SetClamps(a_, b_);
+  if (!statics && path_a_.moves()) {
+    Motion motion = path_a_.At(t);
+    motion.X = a_;
+    rod_->AddRigidMotion(motion);
+  }
+  if (!swing.velocity.empty()) {
+    std::vector<Vector3d> v(elements_ + 1), omega(elements_ + 1);
+    for (int i = 0; i <= elements_; ++i) {
+      v[i] = Resampled(swing.velocity, fraction(i));
+      omega[i] = Resampled(swing.angular_velocity, fraction(i));
+    }
+    rod_->SetVelocities(v, omega);
+  }
+  return true;
+}
+
+void Rig::MoveTo(double t) {
+  if (path_a_.moves()) a_ = TiltedA(path_a_.At(t).X);
+  if (path_b_.moves()) b_ = path_b_.At(t).X;
+  if (!experiment_.load.file.empty()) SetLoads(t);
+}
+
+bool Rig::Equilibrate(int step, std::string* message) {
+  a_ = TiltedA(path_a_.AtStep(step));
+  if (path_b_.moves()) b_ = path_b_.AtStep(step);
+  if (!experiment_.load.file.empty()) SetLoads(step);
+  rod_->SetClamps(a_, b_);
+  if (rod_->Equilibrate(load()).converged) return true;
+  *message = "no static equilibrium found at step " + std::to_string(step);
+  return false;
+}
+
+}  // namespace cosserat_cable

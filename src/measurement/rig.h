@@ -1,0 +1,53 @@
+// An experiment's rig as a rod: how its ends are held, and the state that it starts from.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "clamp_path.h"
+#include "cosserat_cable/measurement/measurement_set.h"
+#include "cosserat_cable/measurement/specimen.h"
+#include "cosserat_cable/rod/point_loads.h"
+#include "cosserat_cable/rod/rod.h"
+
+namespace cosserat_cable {
+
+class Rig {
+ public:
+  /// The experiment outlives the rig.
+  Rig(const Experiment& experiment, const Specimen& specimen, int elements);
+
+  /// Brings the rod to the start. False: `message` says why not.
+  bool Start(std::string* message);
+
+  /// Poses of the clamps at a time [s], and the loads of that time.
+  void MoveTo(double t);
+  /// One step of a quasi-static experiment: the equilibrium at its poses and loads.
+  bool Equilibrate(int step, std::string* message);
+
+  const Pose& clamp_a() const { return a_; }
+  const Pose& clamp_b() const { return b_; }
+  /// Null where nothing but gravity loads the cable.
+  const rod::Load* load() const { return loads_ ? &*loads_ : nullptr; }
+  rod::Rod* rod() { return rod_.get(); }
+  const rod::Rod& rod() const { return *rod_; }
+
+ private:
+  enum class Turn { kFree, kHeld };  // of a disc about its axis
+  rod::RodModel Model(Turn disc) const;
+  Pose TiltedA(const Pose& X_WC) const;
+  bool Settle(rod::Rod* rod, std::string* message);
+  void SetLoads(double t);
+
+  const Experiment& experiment_;
+  Specimen specimen_;
+  int elements_;
+  ClampPath path_a_, path_b_;
+  Pose a_, b_;
+  std::optional<rod::PointLoads> loads_;
+  std::unique_ptr<rod::Rod> rod_;
+};
+
+}  // namespace cosserat_cable

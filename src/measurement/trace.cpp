@@ -1,0 +1,54 @@
+#include "trace.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cosserat_cable {
+namespace {
+
+constexpr int kPoints = 6;
+
+/// Weights of the values at 0, 1, ..., count - 1 for the derivative of the polynomial through them
+/// at x: Fornberg's recursion (Mathematics of Computation 51, 1988).
+void DerivativeWeights(double x, int count, int order, double* weights) {
+  double table[kPoints][3] = {};
+  table[0][0] = 1;
+  double c1 = 1;
+  double c4 = -x;
+  for (int i = 1; i < count; ++i) {
+    const int top = std::min(i, order);
+    double c2 = 1;
+    const double c5 = c4;
+    c4 = i - x;
+    for (int j = 0; j < i; ++j) {
+      const double c3 = i - j;
+      c2 *= c3;
+      if (j == i - 1) {
+        for (int k = top; k > 0; --k)
+          table[i][k] = c1 * (k * table[i - 1][k - 1] - c5 * table[i - 1][k]) / c2;
+        table[i][0] = -c1 * c5 * table[i - 1][0] / c2;
+      }
+      for (int k = top; k > 0; --k) table[j][k] = (c4 * table[j][k] - k * table[j][k - 1]) / c3;
+      table[j][0] = c4 * table[j][0] / c3;
+    }
+    c1 = c2;
+  }
+  for (int i = 0; i < count; ++i) weights[i] = table[i][order];
+}
+
+}  // namespace
+
+double Trace::Evaluate(int quantity, double t, int order) const {
+  const int steps = static_cast<int>(rows_.cols());
+  const int count = std::min(kPoints, steps);
+  const double x = (t - start_) / dt_;
+  const int first =
+      std::clamp(static_cast<int>(std::floor(x)) - kPoints / 2 + 1, 0, std::max(0, steps - count));
+  double weights[kPoints];
+  DerivativeWeights(x - first, count, order, weights);
+  double sum = 0;
+  for (int i = 0; i < count; ++i) sum += weights[i] * rows_(quantity, first + i);
+  return sum / std::pow(dt_, order);
+}
+
+}  // namespace cosserat_cable
