@@ -1,0 +1,80 @@
+// The parameters of a cable from all records of a measurement set at once, through the simulation,
+// with what the data say about their uncertainty.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/identification/unknowns.h"
+#include "cosserat_cable/input/problems.h"
+
+namespace cosserat_cable {
+
+/// Called during the work with what is done and how much of it is (0..1); false stops it.
+using EstimationProgress = std::function<bool(const std::string& what, double part)>;
+
+struct EstimationOptions {
+  UnknownOptions unknowns;
+  bool profiles = true;
+  /// Values to begin from besides the set's own, by name (the direct evaluation's).
+  std::vector<std::pair<std::string, double>> guesses;
+  EstimationProgress progress;
+};
+
+/// The likelihood along one parameter, all others at their best.
+struct Profile {
+  std::vector<double> value;
+  std::vector<double> deviance;  ///< twice the loss of log-likelihood, the noise's colour counted
+};
+
+struct ParameterEstimate {
+  Unknown unknown;
+  bool determined = false;
+  double value = 0;  ///< where it is not determined: what the simulation was left with
+  double sd = 0;
+  double low = 0, high = 0;  ///< 95 %, from the profile where there is one
+  std::string reason;        ///< why it is not determined
+  Profile profile;
+};
+
+/// What the data do say about parameters that they do not determine one by one.
+struct Combination {
+  std::string text;  ///< "eta_GJ/L + D_E"
+  double value = 0, sd = 0;
+  std::string unit;
+};
+
+struct ChannelFit {
+  std::string column;
+  double sigma = 0;  ///< of the noise, as used [the channel's unit]
+  bool sigma_given = false;
+  double rms = 0;                  ///< of the residual
+  double correlation_samples = 1;  ///< how many residuals in a row are worth one
+};
+
+struct ExperimentFit {
+  Eigen::MatrixXd simulated;  ///< with offsets; a row per sample, a column per channel
+  std::vector<ChannelFit> channels;
+};
+
+struct Estimation {
+  bool ok = false;
+  bool interrupted = false;
+  std::string message;  ///< why there is none
+  std::vector<ParameterEstimate> parameters;
+  std::vector<Combination> combinations;
+  Eigen::MatrixXd correlation;  ///< of all unknowns; zero rows where not determined
+  std::vector<ExperimentFit> experiments;
+  CableKeys cable;  ///< the set's, with the determined parameters filled in
+  std::vector<std::string> warnings;
+  double discretisation = 0;  ///< what the steps did to the records, corrected; parts of range
+  double seconds = 0;
+};
+
+/// Mistakes of the set go to `problems`.
+Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
+                    Problems* problems);
+
+}  // namespace cosserat_cable

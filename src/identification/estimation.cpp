@@ -1,0 +1,315 @@
+#include "cosserat_cable/identification/estimation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "cable_number.h"
+#include "cosserat_cable/input/number_text.h"
+#include "fit.h"
+#include "information.h"
+#include "noise.h"
+#include "profile.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kNormal95 = 1.959964;
+constexpr int kMaxRounds = 4;
+// A further round of steps, noise and fit is worth it where values moved by more than this part of
+// their standard deviation, or a noise by this part.
+constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
+// No channel is taken to be better than this part of its range: simulations are not.
+constexpr double kBestChannel = 1e-7;
+// Residuals so many times the noise show that the simulation lacks something.
+constexpr double kMisfit = 1.5;
+// A derivative whose records, over the unknown's whole range, stay below this part of the noise's
+// sum of squares is none.
+constexpr double kUnseen = 1e-3;
+
+double RangeOf(const Eigen::MatrixXd& values, int column) {
+  return values.col(column).maxCoeff() - values.col(column).minCoeff();
+}
+
+/// The work, step by step.
+class Work {
+ public:
+  Work(const Unknowns& unknowns, const EstimationOptions& options)
+      : unknowns_(unknowns), options_(options), model_(unknowns) {}
+
+  Estimation Run();
+
+ private:
+  const std::vector<Experiment>& experiments() const { return unknowns_.set().experiments; }
+  bool Tell(const std::string& what, double part) {
+    return !options_.progress || options_.progress(what, part);
+  }
+  void GuessNoise();
+  bool UpdateNoise();
+  void LeaveOutUnseen();
+  bool FitToEnd();
+  bool Conclude();
+  void Report();
+  void ReportChannels();
+  void KeepDefaults(const Determination& determination);
+
+  const Unknowns& unknowns_;
+  const EstimationOptions& options_;
+  RecordModel model_;
+  NoiseLevels noise_;
+  Optimum optimum_;
+  Records simulated_;
+  std::vector<std::vector<NoiseColour>> colours_;
+  Estimation estimation_;
+};
+
+void Work::GuessNoise() {
+  for (const Experiment& experiment : experiments()) {
+    Eigen::VectorXd levels(experiment.channels.size());
+    for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
+      const int column = static_cast<int>(c);
+      const double range = RangeOf(experiment.record.values, column);
+      const double floor =
+          std::max(kBestChannel * range, std::numeric_limits<double>::min() * 1e10);
+      levels[column] = std::max(experiment.channels[c].sigma.value_or(
+                                    NoiseOfSmooth(experiment.record.values.col(column))),
+                                floor);
+    }
+    noise_.push_back(levels);
+  }
+}
+
+/// Where the noise is not given, the residuals say what it is. False: it had been right.
+bool Work::UpdateNoise() {
+  bool changed = false;
+  for (std::size_t e = 0; e < experiments().size(); ++e)
+    for (std::size_t c = 0; c < experiments()[e].channels.size(); ++c) {
+      if (experiments()[e].channels[c].sigma) continue;
+      const int column = static_cast<int>(c);
+      const Eigen::VectorXd residual =
+          experiments()[e].record.values.col(column) - simulated_[e].col(column);
+      const double rms = std::max(std::sqrt(residual.squaredNorm() / residual.size()),
+                                  kBestChannel * RangeOf(experiments()[e].record.values, column));
+      if (!(rms > 0)) continue;
+      changed |= std::abs(rms / noise_[e][column] - 1) > kNoiseSettled;
+      noise_[e][column] = rms;
+    }
+  return changed;
+}
+
+void Work::LeaveOutUnseen() {
+  const RecordModel::Derivatives found = model_.Differentiate(
+      optimum_.values, model_.WholeHorizon(), RecordModel::Difference::kForward);
+  if (!found.at.ok) return;
+  for (int i = 0; i < unknowns_.size(); ++i)
+    for (std::size_t e = 0; e < experiments().size(); ++e) {
+      const Eigen::MatrixXd& by = found.by_unknown[i][e];
+      double seen = 0;
+      for (int c = 0; c < by.cols(); ++c)
+        seen += by.col(c).squaredNorm() / (noise_[e][c] * noise_[e][c]);
+      if (by.size() > 0 && seen < kUnseen) model_.Ignore(i, static_cast<int>(e));
+    }
+}
+
+bool Work::FitToEnd() {
+  for (int round = 0; round < kMaxRounds; ++round) {
+    if (!Tell("comparing with finer steps", 0.35 + 0.1 * round)) return false;
+    estimation_.discretisation = model_.Refine(optimum_.values);
+    const Eigen::VectorXd before = optimum_.values;
+    const FitProgress progress = [&](const std::string& what) {
+      return Tell("fitting whole records, " + what, 0.4 + 0.1 * round);
+    };
+    const FitResult fit =
+        Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, false, progress);
+    if (fit.interrupted) return false;
+    if (!fit.ok) {
+      estimation_.message = "the fit does not converge: " + fit.message;
+      return false;
+    }
+    optimum_.values = fit.values;
+    simulated_ = model_.Simulate({fit.values}, model_.WholeHorizon()).front().records;
+    const bool noise_changed = UpdateNoise();
+    double moved = 0;
+    if (optimum_.covariance.size() > 0)
+      for (int i = 0; i < unknowns_.size(); ++i) {
+        const double sd = std::sqrt(optimum_.covariance(i, i)) * unknowns_.all()[i].scale;
+        if (sd > 0) moved = std::max(moved, std::abs(fit.values[i] - before[i]) / sd);
+      }
+    if (!Conclude()) return false;
+    if (round > 0 && !noise_changed && moved < kSettled) break;
+  }
+  return true;
+}
+
+/// Derivatives, residuals and their colour at the optimum.
+bool Work::Conclude() {
+  const RecordModel::Derivatives found = model_.Differentiate(
+      optimum_.values, model_.WholeHorizon(), RecordModel::Difference::kCentral);
+  if (!found.at.ok) {
+    estimation_.message = found.at.message;
+    return false;
+  }
+  simulated_ = found.at.records;
+  optimum_.jacobian = WeightedJacobian(model_, found, noise_);
+  optimum_.residuals = WeightedResiduals(model_, optimum_.values, simulated_, noise_);
+  colours_.clear();
+  int row = 0;
+  for (const Experiment& experiment : experiments()) {
+    const auto n = static_cast<int>(experiment.record.t.size());
+    colours_.emplace_back();
+    for (std::size_t c = 0; c < experiment.channels.size(); ++c, row += n)
+      colours_.back().push_back(ColourOf(optimum_.residuals.segment(row, n)));
+  }
+  const Information information = InformationOf(model_, optimum_.jacobian, colours_);
+  optimum_.covariance = Determine(model_, optimum_.values, information).covariance;
+  return true;
+}
+
+/// What is not determined goes back to what was known of it, and the rest is fitted once more.
+void Work::KeepDefaults(const Determination& determination) {
+  bool moved = false;
+  for (int i = 0; i < unknowns_.size(); ++i) {
+    const Unknown& u = unknowns_.all()[i];
+    if (determination.reasons[i].empty() || !u.start_known || optimum_.values[i] == u.start)
+      continue;
+    optimum_.values[i] = u.start;
+    for (std::size_t e = 0; e < experiments().size(); ++e)
+      if (unknowns_.Concerns(i, static_cast<int>(e))) model_.Ignore(i, static_cast<int>(e));
+    moved = true;
+  }
+  if (!moved) return;
+  const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, false,
+                            [&](const std::string& what) { return Tell(what, 0.8); });
+  if (!fit.ok) return;
+  optimum_.values = fit.values;
+  simulated_ = model_.Simulate({fit.values}, model_.WholeHorizon()).front().records;
+}
+
+void Work::ReportChannels() {
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const Experiment& experiment = experiments()[e];
+    ExperimentFit fit;
+    fit.simulated = simulated_[e];
+    for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
+      const int column = static_cast<int>(c);
+      const Eigen::VectorXd residual =
+          experiment.record.values.col(column) - simulated_[e].col(column);
+      ChannelFit channel;
+      channel.column = experiment.channels[c].column;
+      channel.sigma = noise_[e][column];
+      channel.sigma_given = experiment.channels[c].sigma.has_value();
+      channel.rms = std::sqrt(residual.squaredNorm() / residual.size());
+      channel.correlation_samples = colours_[e][c].correlation_samples;
+      const double noise =
+          channel.sigma_given ? channel.sigma : NoiseOfSmooth(experiment.record.values.col(column));
+      if (channel.rms > kMisfit * noise)
+        estimation_.warnings.push_back(experiment.name + "/" + channel.column + ": what is left, " +
+                                       FormatRounded(channel.rms) + ", is " +
+                                       FormatRounded(channel.rms / noise, 2) + " times the noise" +
+                                       (channel.sigma_given ? " that the set gives" : "") +
+                                       ": the simulation lacks something that the data show");
+      fit.channels.push_back(channel);
+    }
+    estimation_.experiments.push_back(std::move(fit));
+  }
+}
+
+void Work::Report() {
+  const Information information = InformationOf(model_, optimum_.jacobian, colours_);
+  const Determination determination = Determine(model_, optimum_.values, information);
+  optimum_.covariance = determination.covariance;
+  std::vector<int> shown;
+  for (const int i : determination.determined)
+    if (unknowns_.all()[i].kind == Unknown::Kind::kCable) shown.push_back(i);
+  std::vector<Profile> profiles(shown.size());
+  if (options_.profiles && Tell("profiles of the likelihood", 0.85))
+    profiles = FindProfiles(model_, optimum_, noise_, shown);
+
+  const Eigen::VectorXd fitted = optimum_.values;
+  const Eigen::VectorXd sds = determination.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  for (int i = 0; i < unknowns_.size(); ++i) {
+    ParameterEstimate estimate;
+    estimate.unknown = unknowns_.all()[i];
+    estimate.value = fitted[i];
+    estimate.determined = determination.reasons[i].empty();
+    estimate.reason = determination.reasons[i];
+    if (estimate.determined) {
+      estimate.sd = sds[i] * estimate.unknown.scale;
+      estimate.low = estimate.value - kNormal95 * estimate.sd;
+      estimate.high = estimate.value + kNormal95 * estimate.sd;
+      const auto place = std::find(shown.begin(), shown.end(), i);
+      if (place != shown.end()) {
+        estimate.profile = profiles[static_cast<std::size_t>(place - shown.begin())];
+        if (estimate.profile.value.size() > 2)
+          std::tie(estimate.low, estimate.high) = IntervalOf(estimate.profile, estimate.value);
+      }
+    }
+    estimation_.parameters.push_back(std::move(estimate));
+  }
+  const Eigen::VectorXd inverse = sds.unaryExpr([](double sd) { return sd > 0 ? 1 / sd : 0.0; });
+  estimation_.correlation = inverse.asDiagonal() * determination.covariance * inverse.asDiagonal();
+  estimation_.combinations = determination.combinations;
+
+  KeepDefaults(determination);
+  for (int i = 0; i < unknowns_.size(); ++i)
+    if (!estimation_.parameters[i].determined) estimation_.parameters[i].value = optimum_.values[i];
+  Eigen::VectorXd values = optimum_.values;
+  for (int i = 0; i < unknowns_.size(); ++i)
+    if (estimation_.parameters[i].determined) values[i] = fitted[i];
+  estimation_.cable = unknowns_.FilledKeys(values);
+  ReportChannels();
+}
+
+Estimation Work::Run() {
+  const auto begin = std::chrono::steady_clock::now();
+  GuessNoise();
+  std::vector<Eigen::VectorXd> guesses;
+  if (!options_.guesses.empty()) {
+    Eigen::VectorXd guess = unknowns_.StartValues();
+    for (const auto& [name, value] : options_.guesses) {
+      const int i = unknowns_.Find(name);
+      if (i < 0 || !std::isfinite(value)) continue;
+      guess[i] = std::clamp(value, unknowns_.all()[i].lower, unknowns_.all()[i].upper);
+    }
+    guesses.push_back(guess);
+  }
+  const FitProgress early = [&](const std::string& what) { return Tell(what, 0.1); };
+  const FitResult start = FitFromAfar(model_, guesses, noise_, early);
+  if (!start.ok) {
+    estimation_.interrupted = start.interrupted;
+    estimation_.message =
+        "no start was found from which the records can be simulated: " + start.message;
+    return estimation_;
+  }
+  optimum_.values = start.values;
+  LeaveOutUnseen();
+  if (!FitToEnd()) {
+    estimation_.interrupted = estimation_.message.empty();
+    return estimation_;
+  }
+  Report();
+  estimation_.ok = true;
+  estimation_.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return estimation_;
+}
+
+}  // namespace
+
+Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
+                    Problems* problems) {
+  const Unknowns unknowns(set, options.unknowns, problems);
+  if (problems->empty()) {
+    // The start must be a cable; what is wrong with it is the user's to know.
+    for (std::size_t e = 0; e < set.experiments.size(); ++e)
+      unknowns.MakeSpecimen(static_cast<int>(e), unknowns.StartValues(), problems);
+  }
+  if (!problems->empty() || unknowns.size() == 0) {
+    Estimation none;
+    none.message = problems->empty() ? "the set names nothing to be identified" : "";
+    return none;
+  }
+  return Work(unknowns, options).Run();
+}
+
+}  // namespace cosserat_cable

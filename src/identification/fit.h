@@ -1,0 +1,47 @@
+// Least squares of the records on what is simulated.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/identification/record_model.h"
+
+namespace cosserat_cable {
+
+/// Standard deviation of the noise, by experiment and channel.
+using NoiseLevels = std::vector<Eigen::VectorXd>;
+
+/// Called with what is going on; false stops the fit.
+using FitProgress = std::function<bool(const std::string& what)>;
+
+/// Residuals (measured less simulated, by the noise) one below the other: experiment by experiment,
+/// channel by channel, then what is known beforehand.
+Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorXd& values,
+                                  const Records& simulated, const NoiseLevels& noise);
+/// Their derivatives by the unknowns in units of the unknowns' scales.
+Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
+                                 const RecordModel::Derivatives& derivatives,
+                                 const NoiseLevels& noise);
+
+struct FitResult {
+  bool ok = false;
+  bool interrupted = false;
+  std::string message;
+  Eigen::VectorXd values;
+  double cost = 0;  ///< half the sum of squares
+  int iterations = 0;
+};
+
+/// Levenberg and Marquardt's method (Ceres) from `values`, with the unknowns in their bounds.
+/// `loose`: on the way, not to the end.
+FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
+              const NoiseLevels& noise, bool loose, const FitProgress& progress);
+
+/// From nowhere near: points spread around the start and `more` on the first part of the records,
+/// the best of them fitted to longer and longer parts, so that no swing is taken for the next.
+FitResult FitFromAfar(const RecordModel& model, const std::vector<Eigen::VectorXd>& more,
+                      const NoiseLevels& noise, const FitProgress& progress);
+
+}  // namespace cosserat_cable

@@ -1,0 +1,22 @@
+// The noise of a channel: its size before a fit, and its colour after.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace cosserat_cable {
+
+/// Standard deviation of the noise of a smooth signal, from differences of high order: what is left
+/// of it where the signal is resolved by its samples, a little too much where it is not.
+double NoiseOfSmooth(const Eigen::VectorXd& samples);
+
+/// An autoregressive model of residuals, of the order that Akaike's criterion asks for.
+struct NoiseColour {
+  double sd = 0;                        ///< marginal
+  std::vector<double> autocorrelation;  ///< at lags 0, 1, ...: until it has died away
+  /// Sum over all lags: how many samples count as one, for a signal that varies slowly.
+  double correlation_samples = 1;
+};
+NoiseColour ColourOf(const Eigen::VectorXd& residuals);
+
+}  // namespace cosserat_cable

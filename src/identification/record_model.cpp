@@ -1,0 +1,238 @@
+#include "cosserat_cable/identification/record_model.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat_cable/rod/rod_batch.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Coarse: what this costs in accuracy, Refine gives back.
+constexpr int kElements = 20;
+constexpr double kStep = 1e-3;    // [s]
+constexpr double kFinest = 1e-4;  // [s]
+constexpr double kTooFar =
+    0.05;  // correction in parts of a channel's range that asks for finer steps
+// In parts of an unknown's scale. Above what Newton's tolerance leaves, below what turns the phase
+// at a record's end by a radian.
+constexpr double kForwardStep = 1e-4;
+constexpr double kCentralStep = 1e-3;
+
+Eigen::VectorXd Moved(const Eigen::VectorXd& values, int unknown, double by) {
+  Eigen::VectorXd moved = values;
+  moved[unknown] += by;
+  return moved;
+}
+
+double Range(const Eigen::MatrixXd& values, int column) {
+  return values.col(column).maxCoeff() - values.col(column).minCoeff();
+}
+
+}  // namespace
+
+RecordModel::RecordModel(const Unknowns& unknowns) : unknowns_(unknowns) {
+  for (const Experiment& experiment : unknowns.set().experiments) {
+    SimulationOptions options;
+    options.elements = kElements;
+    options.dt = kStep;
+    options_.push_back(options);
+    correction_.push_back(Eigen::MatrixXd::Zero(static_cast<int>(experiment.record.t.size()),
+                                                static_cast<int>(experiment.channels.size())));
+  }
+}
+
+Horizon RecordModel::WholeHorizon() const { return PartialHorizon(1.0, 0); }
+
+Horizon RecordModel::PartialHorizon(double part, int samples) const {
+  Horizon horizon;
+  for (const Experiment& experiment : unknowns_.set().experiments) {
+    const std::vector<double>& t = experiment.record.t;
+    const auto count = std::min<std::size_t>(
+        t.size(), std::max<std::size_t>(static_cast<std::size_t>(std::ceil(part * t.size())),
+                                        static_cast<std::size_t>(samples)));
+    horizon.push_back(experiment.quasi_static() ? t.back()
+                                                : t[std::max<std::size_t>(count, 1) - 1]);
+  }
+  return horizon;
+}
+
+bool RecordModel::Shows(int unknown, int experiment) const {
+  return unknowns_.Concerns(unknown, experiment) && !ignored_.count({unknown, experiment});
+}
+
+bool RecordModel::LooksAlike(int experiment, const Eigen::VectorXd& p,
+                             const Eigen::VectorXd& q) const {
+  for (int i = 0; i < unknowns_.size(); ++i)
+    if (p[i] != q[i] && unknowns_.all()[i].kind != Unknown::Kind::kOffset && Shows(i, experiment))
+      return false;
+  return true;
+}
+
+std::vector<RecordModel::Simulated> RecordModel::Simulate(
+    const std::vector<Eigen::VectorXd>& points, const Horizon& horizon) const {
+  const auto& experiments = unknowns_.set().experiments;
+  // An experiment is simulated once for points that differ in nothing that it shows.
+  std::vector<std::vector<std::size_t>> source(experiments.size());  // by experiment and point
+  struct Task {
+    int experiment;
+    std::vector<std::size_t> points;
+    std::vector<SimulatedRecord> results;
+  };
+  const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
+  std::vector<Task> tasks;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    std::vector<std::size_t> distinct;
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      const bool repeats = p > 0 && LooksAlike(static_cast<int>(e), points[p], points[0]);
+      source[e].push_back(repeats ? 0 : p);
+      if (!repeats) distinct.push_back(p);
+    }
+    for (std::size_t first = 0; first < distinct.size(); first += together) {
+      const std::size_t last = std::min(first + together, distinct.size());
+      tasks.push_back({static_cast<int>(e),
+                       {distinct.begin() + static_cast<std::ptrdiff_t>(first),
+                        distinct.begin() + static_cast<std::ptrdiff_t>(last)},
+                       {}});
+    }
+  }
+  tbb::parallel_for(std::size_t{0}, tasks.size(), [&](std::size_t k) {
+    Task& task = tasks[k];
+    std::vector<Specimen> specimens;
+    task.results.resize(task.points.size());
+    std::vector<std::size_t> whose;
+    for (std::size_t i = 0; i < task.points.size(); ++i) {
+      Problems problems;
+      Specimen specimen =
+          unknowns_.MakeSpecimen(task.experiment, points[task.points[i]], &problems);
+      if (!problems.empty()) {
+        task.results[i].ok = false;
+        task.results[i].message = problems.ToString();
+        continue;
+      }
+      specimens.push_back(std::move(specimen));
+      whose.push_back(i);
+    }
+    if (specimens.empty()) return;
+    SimulationOptions options = options_[task.experiment];
+    options.until = horizon[task.experiment];
+    std::vector<SimulatedRecord> records =
+        SimulateExperiment(experiments[task.experiment], specimens, options);
+    for (std::size_t i = 0; i < records.size(); ++i) task.results[whose[i]] = std::move(records[i]);
+  });
+
+  std::vector<std::vector<SimulatedRecord>> raw(points.size(),
+                                                std::vector<SimulatedRecord>(experiments.size()));
+  for (Task& task : tasks)
+    for (std::size_t i = 0; i < task.points.size(); ++i)
+      raw[task.points[i]][task.experiment] = std::move(task.results[i]);
+  for (std::size_t e = 0; e < experiments.size(); ++e)
+    for (std::size_t p = 0; p < points.size(); ++p)
+      if (source[e][p] != p) raw[p][e] = raw[source[e][p]][e];
+  std::vector<Simulated> all;
+  for (std::size_t p = 0; p < points.size(); ++p) all.push_back(Assemble(points[p], raw[p]));
+  return all;
+}
+
+RecordModel::Simulated RecordModel::Assemble(const Eigen::VectorXd& values,
+                                             const std::vector<SimulatedRecord>& raw) const {
+  Simulated simulated;
+  for (std::size_t e = 0; e < raw.size(); ++e) {
+    if (!raw[e].ok) {
+      simulated.ok = false;
+      simulated.message = unknowns_.set().experiments[e].name + ": " + raw[e].message;
+      return simulated;
+    }
+    Eigen::MatrixXd record = raw[e].values + correction_[e].topRows(raw[e].values.rows());
+    for (int c = 0; c < record.cols(); ++c)
+      record.col(c).array() += unknowns_.OffsetOf(static_cast<int>(e), c, values);
+    if (!record.allFinite()) {
+      simulated.ok = false;
+      simulated.message = unknowns_.set().experiments[e].name + ": not finite";
+      return simulated;
+    }
+    simulated.records.push_back(std::move(record));
+  }
+  return simulated;
+}
+
+RecordModel::Derivatives RecordModel::Differentiate(const Eigen::VectorXd& values,
+                                                    const Horizon& horizon,
+                                                    Difference difference) const {
+  const int unknowns = unknowns_.size();
+  const int experiments = static_cast<int>(unknowns_.set().experiments.size());
+  const bool central = difference == Difference::kCentral;
+  const double step = central ? kCentralStep : kForwardStep;
+  std::vector<Eigen::VectorXd> points = {values};
+  struct Column {
+    std::size_t plus, minus;
+    double span;  // in scales
+  };
+  std::vector<Column> columns;
+  for (int i = 0; i < unknowns; ++i) {
+    const Unknown& u = unknowns_.all()[i];
+    // A damping stays above zero.
+    const bool both = central && values[i] - step * u.scale >= u.lower;
+    Column column{points.size(), 0, step};
+    points.push_back(Moved(values, i, step * u.scale));
+    if (both) {
+      column.minus = points.size();
+      column.span = 2 * step;
+      points.push_back(Moved(values, i, -step * u.scale));
+    }
+    columns.push_back(column);
+  }
+  std::vector<Simulated> all = Simulate(points, horizon);
+  Derivatives derivatives;
+  for (const Simulated& one : all)
+    if (!one.ok) {
+      derivatives.at = one;
+      return derivatives;
+    }
+  for (int i = 0; i < unknowns; ++i) {
+    Records records(experiments);
+    for (int e = 0; e < experiments; ++e)
+      if (Shows(i, e))
+        records[e] =
+            (all[columns[i].plus].records[e] - all[columns[i].minus].records[e]) / columns[i].span;
+    derivatives.by_unknown.push_back(std::move(records));
+  }
+  derivatives.at = std::move(all.front());
+  return derivatives;
+}
+
+double RecordModel::Refine(const Eigen::VectorXd& values) {
+  const auto& experiments = unknowns_.set().experiments;
+  std::vector<double> largest(experiments.size(), 0.0);
+  tbb::parallel_for(std::size_t{0}, experiments.size(), [&](std::size_t e) {
+    Problems problems;
+    const Specimen specimen = unknowns_.MakeSpecimen(static_cast<int>(e), values, &problems);
+    if (!problems.empty()) return;
+    SimulationOptions coarse = options_[e];
+    SimulatedRecord at_coarse = SimulateExperiment(experiments[e], {specimen}, coarse).front();
+    for (;;) {
+      SimulationOptions fine = coarse;
+      fine.dt /= 2;
+      fine.elements *= 2;
+      SimulatedRecord at_fine = SimulateExperiment(experiments[e], {specimen}, fine).front();
+      if (!at_coarse.ok || !at_fine.ok) return;
+      const Eigen::MatrixXd correction = (at_fine.values - at_coarse.values) * (4.0 / 3.0);
+      double size = 0;
+      for (int c = 0; c < correction.cols(); ++c) {
+        const double range = Range(at_fine.values, c);
+        if (range > 0) size = std::max(size, correction.col(c).cwiseAbs().maxCoeff() / range);
+      }
+      options_[e] = coarse;
+      correction_[e] = correction;
+      largest[e] = size;
+      if (size < kTooFar || fine.dt < kFinest) return;
+      coarse = fine;
+      at_coarse = std::move(at_fine);
+    }
+  });
+  return *std::max_element(largest.begin(), largest.end());
+}
+
+}  // namespace cosserat_cable

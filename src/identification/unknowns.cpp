@@ -1,0 +1,258 @@
+#include "cosserat_cable/identification/unknowns.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cable_number.h"
+#include "cosserat_cable/input/number_text.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+// Where nothing is known of a damping, a ratio of this size in the first mode is where the search
+// begins.
+constexpr double kTypicalDamping = 0.05;
+// No cable's stiffness or damping is as far from the first guess as this factor.
+constexpr double kFarthest = 1e3;
+constexpr int kSwingShapes = 4;
+constexpr const char* kDampings[] = {"eta_EI", "eta_GJ", "eta_EA", "eta_GA"};
+constexpr double kFirstClampedFree = 1.87510407;  // root of 1 + cos cosh = 0
+
+bool HasDisc(const Experiment& experiment) {
+  return experiment.b.kind == EndCondition::Kind::kDisc;
+}
+
+/// Angular frequency [rad/s] of the slowest bending, roughly: of a clamped-free cable.
+double BendingFrequency(const CableKeys& keys) {
+  const double L = keys.length.value.value_or(0.2), EI = NumberOf("EI", keys).value_or(0.01);
+  return std::pow(kFirstClampedFree / L, 2) *
+         std::sqrt(EI / keys.mass_per_length.value.value_or(0.1));
+}
+
+double TorsionFrequency(const CableKeys& keys, const Experiment& experiment) {
+  const double L = keys.length.value.value_or(0.2), GJ = NumberOf("GJ", keys).value_or(0.01);
+  const double rhoJ = keys.mass_per_length.value.value_or(0.1) *
+                      std::pow(keys.diameter.value.value_or(0.01), 2) / 8;
+  if (HasDisc(experiment)) return std::sqrt(GJ / (L * (experiment.b.disc.inertia + rhoJ * L / 3)));
+  return kPi / (2 * L) * std::sqrt(GJ / rhoJ);
+}
+
+}  // namespace
+
+Unknowns::Unknowns(const MeasurementSet& set, const UnknownOptions& options, Problems* problems)
+    : set_(set) {
+  for (const Experiment& experiment : set_.experiments)
+    keys_.push_back(SpecimenKeys(set_, experiment));
+  std::vector<std::string> names = {"EI", "GJ", "eta_EI", "eta_GJ"};
+  if (set_.cable.uncertain.value) {
+    names.clear();
+    for (const UncertainKey& key : *set_.cable.uncertain.value) names.push_back(key.name);
+  }
+  const bool disc =
+      std::any_of(set_.experiments.begin(), set_.experiments.end(),
+                  [](const Experiment& e) { return HasDisc(e) && !e.quasi_static(); });
+  const bool twist_damping = std::count(names.begin(), names.end(), "eta_GJ") > 0;
+  if (disc && twist_damping && options.end_damping &&
+      !std::count(names.begin(), names.end(), kEndDamping))
+    names.push_back(kEndDamping);
+  for (const std::string& name : names) AddCable(name, problems);
+
+  for (std::size_t e = 0; e < set_.experiments.size(); ++e) {
+    const Experiment& experiment = set_.experiments[e];
+    for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
+      if (!experiment.channels[c].unknown_offset) continue;
+      Unknown offset;
+      offset.kind = Unknown::Kind::kOffset;
+      offset.name = experiment.name + "/" + experiment.channels[c].column + ".offset";
+      offset.experiment = static_cast<int>(e);
+      offset.index = static_cast<int>(c);
+      const auto column = experiment.record.values.col(c);
+      offset.scale = std::max(column.maxCoeff() - column.minCoeff(), 1e-12);
+      all_.push_back(offset);
+    }
+    if (options.clamp_sd > 0)
+      for (int axis : {0, 1}) {
+        Unknown tilt;
+        tilt.kind = Unknown::Kind::kTilt;
+        tilt.name = experiment.name + "/tilt_a" + std::to_string(axis + 1);
+        tilt.unit = "rad";
+        tilt.scale = tilt.prior_sd = options.clamp_sd;
+        tilt.experiment = static_cast<int>(e);
+        tilt.index = axis;
+        all_.push_back(tilt);
+      }
+    if (options.length_sd > 0) {
+      Unknown length;
+      length.kind = Unknown::Kind::kLength;
+      length.name = experiment.name + "/length";
+      length.unit = "m";
+      length.scale = length.prior_sd = options.length_sd;
+      length.experiment = static_cast<int>(e);
+      all_.push_back(length);
+    }
+  }
+  if (!problems->empty()) return;
+  for (std::size_t e = 0; e < set_.experiments.size(); ++e) {
+    shapes_.emplace_back();
+    if (set_.experiments[e].start.kind == StartCondition::Kind::kUnknown)
+      AddSwing(static_cast<int>(e));
+  }
+}
+
+void Unknowns::AddCable(const std::string& name, Problems* problems) {
+  Unknown unknown;
+  unknown.name = name;
+  unknown.unit = UnitOf(name);
+  unknown.damping = IsDamping(name);
+  std::optional<double> given = NumberOf(name, set_.cable);
+  double typical = 0;
+  for (std::size_t e = 0; e < set_.experiments.size(); ++e) {
+    const Experiment& experiment = set_.experiments[e];
+    const CableKeys& keys = keys_[e];
+    if (name == "disc.inertia") {
+      if (HasDisc(experiment)) given = experiment.b.disc.inertia;
+      continue;
+    }
+    double size = 0;
+    if (name.rfind("eta_EI", 0) == 0)
+      size = 2 * kTypicalDamping * NumberOf("EI", keys).value_or(0.01) / BendingFrequency(keys);
+    else if (name == "eta_GJ")
+      size = 2 * kTypicalDamping * NumberOf("GJ", keys).value_or(0.01) /
+             TorsionFrequency(keys, experiment);
+    else if (name == kEndDamping && HasDisc(experiment))
+      size =
+          2 * kTypicalDamping * TorsionFrequency(keys, experiment) * experiment.b.disc.inertia / 2;
+    typical = std::max(typical, size);
+  }
+  if (!given && typical == 0) {
+    // A default that follows from others: as complete keys would have it.
+    Problems unused;
+    CableKeys filled = set_.cable;
+    for (const char* damping : {"eta_EI", "eta_GJ"})
+      if (!NumberOf(damping, filled)) SetNumber(damping, 0, &filled);
+    const CableModel cable = CompleteCable(filled, set_.cable_mark, &unused);
+    if (name.rfind("EA", 0) == 0) given = cable.EA;
+    if (name.rfind("GA", 0) == 0) given = cable.GA1;
+    if (name.rfind("eta_EA", 0) == 0) given = cable.eta_EA;
+    if (name.rfind("eta_GA", 0) == 0) given = cable.eta_GA1;
+  }
+  unknown.start_known = given.has_value();
+  unknown.start = given.value_or(typical);
+  unknown.scale = std::max(std::abs(unknown.start), unknown.damping ? typical : 0.0);
+  if (!(unknown.scale > 0)) {
+    problems->Add(set_.cable_mark, "got '" + name +
+                                       "' as uncertain, but it has no value to start "
+                                       "from and no experiment that could show it");
+    return;
+  }
+  unknown.lower = unknown.damping ? 0.0 : unknown.scale / kFarthest;
+  unknown.upper = unknown.scale * kFarthest;
+  all_.push_back(unknown);
+}
+
+void Unknowns::AddSwing(int e) {
+  const Experiment& experiment = set_.experiments[e];
+  Problems problems;
+  const Specimen specimen = MakeSpecimen(e, StartValues(), &problems);
+  if (!problems.empty()) return;
+  shapes_[e] = FindSwingShapes(experiment, specimen, specimen.cable.elements, kSwingShapes);
+  for (std::size_t k = 0; k < shapes_[e].size(); ++k)
+    for (const Unknown::Kind kind : {Unknown::Kind::kSwing, Unknown::Kind::kSpeed}) {
+      Unknown swing;
+      swing.kind = kind;
+      swing.name = experiment.name + (kind == Unknown::Kind::kSwing ? "/swing" : "/speed") +
+                   std::to_string(k + 1);
+      // Shapes have a largest displacement of 1 m (or turn of 1 rad).
+      swing.scale = 0.1 * specimen.cable.length *
+                    (kind == Unknown::Kind::kSpeed ? std::max(shapes_[e][k].w, 1.0) : 1.0);
+      swing.experiment = e;
+      swing.index = static_cast<int>(k);
+      all_.push_back(swing);
+    }
+}
+
+Eigen::VectorXd Unknowns::StartValues() const {
+  Eigen::VectorXd values(size());
+  for (int i = 0; i < size(); ++i) values[i] = all_[i].start;
+  return values;
+}
+
+bool Unknowns::Concerns(int unknown, int e) const {
+  const Unknown& u = all_[unknown];
+  if (u.kind != Unknown::Kind::kCable) return u.experiment == e;
+  const Experiment& experiment = set_.experiments[e];
+  if (u.name == "disc.inertia" || u.name == kEndDamping)
+    return HasDisc(experiment) && !experiment.quasi_static();
+  if (u.damping && experiment.quasi_static()) return false;
+  return !Gives(u.name, experiment.specimen);
+}
+
+Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* problems) const {
+  const Experiment& experiment = set_.experiments[e];
+  CableKeys keys = keys_[e];
+  double inertia = experiment.b.disc.inertia;
+  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();
+  for (int i = 0; i < values.size(); ++i) {
+    const Unknown& u = all_[i];
+    if (!Concerns(i, e)) continue;
+    if (u.kind == Unknown::Kind::kTilt) tilt[u.index] += values[i];
+    if (u.kind == Unknown::Kind::kLength && keys.length.value) *keys.length.value += values[i];
+    if (u.kind != Unknown::Kind::kCable) continue;
+    if (u.name == "disc.inertia")
+      inertia = values[i];
+    else
+      SetNumber(u.name, values[i], &keys);
+  }
+  // Where nothing moves in time, damping need not be known.
+  if (experiment.quasi_static())
+    for (const char* damping : kDampings)
+      if (IsUnknown(damping, keys)) SetNumber(damping, 0, &keys);
+  Specimen specimen = cosserat_cable::MakeSpecimen(keys, experiment, problems);
+  specimen.disc_inertia = inertia;
+  specimen.tilt_a = tilt;
+  if (e >= static_cast<int>(shapes_.size()) || shapes_[e].empty()) return specimen;
+
+  Swing& swing = specimen.swing;
+  const std::size_t nodes = shapes_[e].front().displacement.size();
+  for (auto* part :
+       {&swing.displacement, &swing.rotation, &swing.velocity, &swing.angular_velocity})
+    part->assign(nodes, Eigen::Vector3d::Zero());
+  for (int i = 0; i < values.size(); ++i) {
+    const Unknown& u = all_[i];
+    if (u.experiment != e) continue;
+    const bool speed = u.kind == Unknown::Kind::kSpeed;
+    if (!speed && u.kind != Unknown::Kind::kSwing) continue;
+    const SwingShape& shape = shapes_[e][u.index];
+    for (std::size_t n = 0; n < nodes; ++n) {
+      (speed ? swing.velocity : swing.displacement)[n] += values[i] * shape.displacement[n];
+      (speed ? swing.angular_velocity : swing.rotation)[n] += values[i] * shape.rotation[n];
+    }
+  }
+  return specimen;
+}
+
+double Unknowns::OffsetOf(int experiment, int channel, const Eigen::VectorXd& values) const {
+  double offset = 0;
+  for (int i = 0; i < size(); ++i)
+    if (all_[i].kind == Unknown::Kind::kOffset && all_[i].experiment == experiment &&
+        all_[i].index == channel)
+      offset += values[i];
+  return offset;
+}
+
+CableKeys Unknowns::FilledKeys(const Eigen::VectorXd& values) const {
+  CableKeys keys = set_.cable;
+  for (int i = 0; i < size(); ++i)
+    if (all_[i].kind == Unknown::Kind::kCable && all_[i].name != "disc.inertia")
+      SetNumber(all_[i].name, values[i], &keys);
+  return keys;
+}
+
+int Unknowns::Find(const std::string& name) const {
+  for (int i = 0; i < size(); ++i)
+    if (all_[i].name == name) return i;
+  return -1;
+}
+
+}  // namespace cosserat_cable
