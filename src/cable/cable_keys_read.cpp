@@ -13,15 +13,15 @@ constexpr int kFewestElements = 4;
 constexpr int kMostElements = 1000;
 
 // What `uncertain` may name besides numbers of the extensions: every numeric key of a cable, and
-// the one of a rig's disc.
+// those of a rig's disc: its inertia, and D_E of eqs. (12) and (13), the dashpot at its fixation.
 const std::vector<std::string>& NumericKeys() {
-  static const std::vector<std::string> keys = {"length",  "diameter",    "mass_per_length",
-                                                "EI",      "EI1",         "EI2",
-                                                "GJ",      "EA",          "GA",
-                                                "GA1",     "GA2",         "eta_EI",
-                                                "eta_EI1", "eta_EI2",     "eta_GJ",
-                                                "eta_EA",  "eta_GA",      "eta_GA1",
-                                                "eta_GA2", "disc.inertia"};
+  static const std::vector<std::string> keys = {"length",  "diameter",     "mass_per_length",
+                                                "EI",      "EI1",          "EI2",
+                                                "GJ",      "EA",           "GA",
+                                                "GA1",     "GA2",          "eta_EI",
+                                                "eta_EI1", "eta_EI2",      "eta_GJ",
+                                                "eta_EA",  "eta_GA",       "eta_GA1",
+                                                "eta_GA2", "disc.inertia", "D_E"};
   return keys;
 }
 

@@ -1,7 +1,11 @@
 #include "cosserat_cable/input/number_text.h"
 
+#include <locale.h>
+#include <stdlib.h>
+
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
 #include <locale>
 #include <set>
@@ -49,14 +53,14 @@ bool IsNonFiniteWord(std::string text) {
 }  // namespace
 
 NumberText ParseNumber(const std::string& text) {
-  if (IsNonFiniteWord(text)) return {NumberText::Kind::kNonFinite, 0};
-  if (!IsDecimalNumber(text)) return {};
-  // A stream of the classic locale: strtod would expect a decimal comma in some places of the
-  // world.
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double value = 0;
-  if (!(stream >> value)) return {NumberText::Kind::kNonFinite, 0};  // it overflowed
+  if (!IsDecimalNumber(text)) {
+    return {IsNonFiniteWord(text) ? NumberText::Kind::kNonFinite : NumberText::Kind::kNone, 0};
+  }
+  // Plain strtod would expect a decimal comma in some places of the world; a stream takes several
+  // times as long, which files of a million numbers feel.
+  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
+  const double value = strtod_l(text.c_str(), nullptr, classic);
+  if (std::isinf(value)) return {NumberText::Kind::kNonFinite, 0};
   return {NumberText::Kind::kFinite, value};
 }
 
