@@ -33,6 +33,7 @@ set(rooms
   cosserat_cable_contact
   cosserat_cable_rod
   cosserat_cable_input
+  cosserat_cable_console
   cosserat_cable_math
 )
 catkin_package(
@@ -50,7 +51,7 @@ target_include_directories(cosserat_cable_ros PUBLIC include)
 # Not ours: a warning in a message header is no reason to stop.
 target_include_directories(cosserat_cable_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
-target_link_libraries(cosserat_cable_ros PUBLIC cosserat_cable_cable cosserat_cable_vehicle
+target_link_libraries(cosserat_cable_ros PUBLIC cosserat_cable_console cosserat_cable_cable cosserat_cable_vehicle
   ${catkin_LIBRARIES} TBB::tbb Threads::Threads)
 
 foreach(room ${rooms})
@@ -75,6 +76,11 @@ foreach(app ${apps})
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
   target_link_libraries(${name} cosserat_cable_ros CLI11::CLI11)
+  if(name STREQUAL cable_simulate OR name STREQUAL cable_identify)
+    target_link_libraries(${name} cosserat_cable_identification)
+    target_compile_definitions(${name} PRIVATE
+      COSSERAT_CABLE_SCRIPTS="${CMAKE_CURRENT_SOURCE_DIR}/scripts")
+  endif()
   if(name STREQUAL apex_check)
     target_link_libraries(${name} GTest::gtest)
   endif()

@@ -1,7 +1,7 @@
 // Says all that is wrong with a vehicle, its cables and a recording; simulates nothing.
 #include <iostream>
 
-#include "cosserat_cable/ros/exit_code.h"
+#include "cosserat_cable/console/exit_code.h"
 #include "cosserat_cable/ros/summary.h"
 #include "engine_arguments.h"
 

@@ -204,10 +204,7 @@ Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* 
     else
       SetNumber(u.name, values[i], &keys);
   }
-  // Where nothing moves in time, damping need not be known.
-  if (experiment.quasi_static())
-    for (const char* damping : kDampings)
-      if (IsUnknown(damping, keys)) SetNumber(damping, 0, &keys);
+  if (experiment.quasi_static()) keys = WithoutUnknownDamping(keys);
   Specimen specimen = cosserat_cable::MakeSpecimen(keys, experiment, problems);
   specimen.disc_inertia = inertia;
   specimen.tilt_a = tilt;

@@ -26,6 +26,18 @@ CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment,
   return fitted;
 }
 
+CableKeys WithoutUnknownDamping(CableKeys keys) {
+  const auto set = [](DampingKey* key) {
+    if (key->kind == DampingKey::Kind::kUnknown) *key = {DampingKey::Kind::kNumber, 0.0};
+  };
+  for (auto* single : {&keys.eta_GJ, &keys.eta_EA})
+    if (single->value) set(&*single->value);
+  for (auto* pair : {&keys.eta_EI, &keys.eta_GA})
+    if (pair->value)
+      for (DampingKey& key : *pair->value) set(&key);
+  return keys;
+}
+
 Specimen MakeSpecimen(const CableKeys& keys, const Experiment& experiment, Problems* problems) {
   Specimen specimen;
   specimen.cable = CompleteCable(keys, experiment.mark, problems);

@@ -9,10 +9,10 @@
 #include <limits>
 #include <optional>
 
+#include "cosserat_cable/console/interrupt.h"
+#include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/ros/bag_sink.h"
 #include "cosserat_cable/ros/conversions.h"
-#include "interrupt.h"
-#include "progress.h"
 
 namespace cosserat_cable {
 namespace {
@@ -75,7 +75,7 @@ std::int64_t EarliestStamp(const BagMessage& message) {
 bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
   const BagSurvey& survey = *inputs.survey;
   const std::int64_t end = std::min(survey.to, inputs.bags->end_time());
-  Progress progress(static_cast<double>(end - survey.first_step) * 1e-9);
+  Progress progress(static_cast<double>(end - survey.first_step) * 1e-9, "s simulated");
   const auto advance = [&] {
     engine->Advance(sink);
     Say(engine);

@@ -13,11 +13,12 @@ PACKAGE = 'cosserat_cable'
 BELOW = {
     'math': set(),
     'input': {'math'},
+    'console': set(),
     'rod': {'math'},
     'contact': {'math', 'input'},
     'cable': {'rod', 'contact', 'input', 'math'},
     'measurement': {'cable', 'rod', 'contact', 'input', 'math'},
-    'identification': {'measurement', 'cable', 'rod', 'contact', 'input', 'math'},
+    'identification': {'console', 'measurement', 'cable', 'rod', 'contact', 'input', 'math'},
     'vehicle': {'math', 'input', 'contact'},
 }
 # These may include every room, and ROS.

@@ -37,6 +37,10 @@ CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment);
 CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment,
                        const CableKeys& cable_file);
 
+/// The keys with zero for damping that the set says to be unknown: for experiments in which nothing
+/// moves in time.
+CableKeys WithoutUnknownDamping(CableKeys keys);
+
 /// The specimen that these keys describe. Missing and unknown values are problems.
 Specimen MakeSpecimen(const CableKeys& keys, const Experiment& experiment, Problems* problems);
 

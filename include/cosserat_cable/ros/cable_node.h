@@ -11,8 +11,8 @@
 #include <memory>
 #include <string>
 
+#include "cosserat_cable/console/exit_code.h"
 #include "cosserat_cable/ros/cable_engine.h"
-#include "cosserat_cable/ros/exit_code.h"
 #include "cosserat_cable/ros/inputs.h"
 #include "cosserat_cable/ros/topic_sink.h"
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cosserat_cable/ros/exit_code.h"
+#include "cosserat_cable/console/exit_code.h"
 
 namespace cosserat_cable {
 

@@ -1,4 +1,4 @@
-#include "interrupt.h"
+#include "cosserat_cable/console/interrupt.h"
 
 #include <csignal>
 

@@ -2,20 +2,23 @@
 #pragma once
 
 #include <chrono>
+#include <string>
 
 namespace cosserat_cable {
 
 class Progress {
  public:
-  /// `total`: what is to be done [s of simulated time].
-  explicit Progress(double total);
+  /// `total`: what is to be done, in `unit`.
+  Progress(double total, std::string unit);
   ~Progress();
 
-  void Update(double done);
+  /// `what`: is going on; may be empty.
+  void Update(double done, const std::string& what = "");
 
  private:
   using Clock = std::chrono::steady_clock;
   double total_;
+  std::string unit_;
   bool terminal_;
   Clock::time_point start_, last_;
   int last_tenth_ = 0;

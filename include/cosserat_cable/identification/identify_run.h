@@ -1,0 +1,26 @@
+// Parameters from a measurement set: what the tool cable_identify does.
+#pragma once
+
+#include <string>
+
+#include "cosserat_cable/console/exit_code.h"
+#include "cosserat_cable/identification/unknowns.h"
+
+namespace cosserat_cable {
+
+struct IdentifyRunOptions {
+  std::string set;
+  std::string output;  ///< folder
+  UnknownOptions unknowns;
+  bool profiles = true;
+  bool report = true;
+  bool pdf = false;
+  std::string report_program;  ///< scripts/identification_report
+  std::string json;
+};
+
+/// Writes identified_cable.yaml, identification.json, fit/NAME.csv and report.html. Reports
+/// problems to stderr.
+ExitCode RunIdentify(const IdentifyRunOptions& options);
+
+}  // namespace cosserat_cable

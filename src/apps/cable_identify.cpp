@@ -1,0 +1,37 @@
+// Parameters of a cable from a measurement set.
+#include <filesystem>
+
+#include "cosserat_cable/identification/identify_run.h"
+#include "engine_arguments.h"
+
+int main(int argc, char** argv) {
+  cosserat_cable::IdentifyRunOptions options;
+  // Scripts stand beside this program where it is installed, and where it was built from.
+  const std::filesystem::path beside =
+      std::filesystem::read_symlink("/proc/self/exe").parent_path() / "identification_report";
+  options.report_program = std::filesystem::exists(beside) ? beside.string()
+                                                           : COSSERAT_CABLE_SCRIPTS
+                               "/identification_report";
+  CLI::App app(
+      "Fits the cable's parameters to all records of a measurement set at once, through the "
+      "simulation, and says how well the data determine them.");
+  app.add_option("set", options.set, "folder of the measurement set")->required();
+  app.add_option("--output", options.output,
+                 "folder for identified_cable.yaml, identification.json, fit/ and report.html")
+      ->required();
+  app.add_option("--uncertain-clamp", options.unknowns.clamp_sd,
+                 "clamp a points elsewhere than the set says, by about this angle [rad]: estimate "
+                 "it with the parameters");
+  app.add_option("--uncertain-length", options.unknowns.length_sd,
+                 "free lengths are wrong by about this [m]: estimate them with the parameters");
+  app.add_flag("!--no-end-damping", options.unknowns.end_damping,
+               "take the loss D_E at a disc for zero instead of estimating it");
+  app.add_flag("!--no-profiles", options.profiles,
+               "leave out the profiles of the likelihood: intervals from the curvature alone");
+  app.add_flag("!--no-report", options.report, "leave out report.html");
+  app.add_flag("--pdf", options.pdf, "write report.pdf too");
+  app.add_option("--json", options.json, "another file for the numbers of identification.json");
+  int code = 0;
+  if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
+  return cosserat_cable::RunIdentify(options);
+}

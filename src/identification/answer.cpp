@@ -1,0 +1,192 @@
+#include "answer.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <sstream>
+
+#include "cable_number.h"
+#include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/measurement/record_csv.h"
+
+namespace cosserat_cable {
+namespace {
+
+using nlohmann::json;
+
+constexpr double kNormal95 = 1.959964;
+
+const char* ChannelUnit(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kPosition:
+      return "m";
+    case Quantity::kVelocity:
+      return "m/s";
+    case Quantity::kAcceleration:
+      return "m/s^2";
+    case Quantity::kAngle:
+      return "rad";
+    case Quantity::kRate:
+      return "rad/s";
+    case Quantity::kForce:
+      return "N";
+    case Quantity::kMoment:
+      return "N m";
+  }
+  return "";
+}
+
+bool OfCable(const ParameterEstimate& estimate) {
+  return estimate.unknown.kind == Unknown::Kind::kCable;
+}
+
+json ChannelJson(const Channel& channel, const ChannelFit& fit) {
+  return {{"column", channel.column},
+          {"quantity", ToString(channel.quantity)},
+          {"unit", ChannelUnit(channel.quantity)},
+          {"sigma", fit.sigma},
+          {"sigma_given", fit.sigma_given},
+          {"rms", fit.rms},
+          {"correlation_samples", fit.correlation_samples},
+          {"misfit", fit.sigma > 0 ? json(fit.rms / fit.sigma) : json()}};
+}
+
+}  // namespace
+
+json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
+  json answer = {{"format", 1}, {"set", set.folder}, {"seconds", estimation.seconds}};
+  answer["parameters"] = json::object();
+  answer["undetermined"] = json::object();
+  answer["nuisances"] = json::object();
+  json names = json::array();
+  std::vector<int> shown;
+  for (std::size_t i = 0; i < estimation.parameters.size(); ++i) {
+    const ParameterEstimate& one = estimation.parameters[i];
+    const std::string& name = one.unknown.name;
+    const json value = one.determined ? json::array({one.value, one.sd}) : json();
+    if (one.determined) {
+      names.push_back(name);
+      shown.push_back(static_cast<int>(i));
+    }
+    if (!OfCable(one)) {
+      answer["nuisances"][name] = value;
+      continue;
+    }
+    answer["parameters"][name] = value;
+    answer["units"][name] = one.unknown.unit;
+    if (one.unknown.start_known) answer["start"][name] = one.unknown.start;
+    if (one.determined) {
+      answer["intervals"][name] = {one.low, one.high};
+      if (!one.profile.value.empty())
+        answer["profiles"][name] = {{"value", one.profile.value},
+                                    {"deviance", one.profile.deviance}};
+    } else {
+      answer["undetermined"][name] = one.reason;
+      if (one.unknown.start_known) answer["defaults_kept"][name] = one.value;
+    }
+  }
+  json matrix = json::array();
+  for (const int i : shown) {
+    json row = json::array();
+    for (const int k : shown) row.push_back(estimation.correlation(i, k));
+    matrix.push_back(row);
+  }
+  answer["correlation"] = {{"names", names}, {"matrix", matrix}};
+  answer["combinations"] = json::array();
+  for (const Combination& sum : estimation.combinations)
+    answer["combinations"].push_back(
+        {{"text", sum.text}, {"value", sum.value}, {"sd", sum.sd}, {"unit", sum.unit}});
+  answer["noise"] = json::object();
+  answer["experiments"] = json::array();
+  for (std::size_t e = 0; e < set.experiments.size(); ++e) {
+    const Experiment& experiment = set.experiments[e];
+    json entry = {{"name", experiment.name},
+                  {"kind", experiment.kind},
+                  {"quasi_static", experiment.quasi_static()},
+                  {"length", SpecimenKeys(set, experiment).length.value.value_or(0.0)},
+                  {"file", "fit/" + experiment.name + ".csv"},
+                  {"channels", json::array()}};
+    for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
+      const ChannelFit& fit = estimation.experiments[e].channels[c];
+      json channel = ChannelJson(experiment.channels[c], fit);
+      const std::string name = experiment.name + "/" + experiment.channels[c].column;
+      for (const ParameterEstimate& one : estimation.parameters)
+        if (one.unknown.name == name + ".offset") channel["offset"] = one.value;
+      entry["channels"].push_back(channel);
+      answer["noise"][name] = fit.sigma_given ? fit.sigma : fit.rms;
+    }
+    answer["experiments"].push_back(entry);
+  }
+  answer["discretisation"] = estimation.discretisation;
+  answer["warnings"] = estimation.warnings;
+  return answer;
+}
+
+std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& estimation) {
+  Problems problems;
+  CableFile file;
+  file.specimen = true;
+  file.cables.push_back(
+      CompleteCable(WithoutUnknownDamping(estimation.cable), set.cable_mark, &problems));
+  file.marks.emplace_back();
+  // Defaults follow from the rest; written out they would no longer.
+  const auto is_default = [&](const std::string& key) {
+    const std::string base =
+        key.back() == '1' || key.back() == '2' ? key.substr(0, key.size() - 1) : key;
+    const bool derived = base == "EA" || base == "GA" || base == "eta_EA" || base == "eta_GA";
+    return key == "name" || key == "apex" || key == "contact" ||
+           (derived && !Gives(base, estimation.cable));
+  };
+  std::istringstream lines(WriteCableFile(file));
+  std::string text, line;
+  while (std::getline(lines, line)) {
+    const std::size_t begin = line.find_first_not_of(" -"), colon = line.find(':');
+    std::string key;
+    if (begin != std::string::npos && colon != std::string::npos && colon > begin)
+      key = line.substr(begin, colon - begin);
+    if (!key.empty() && is_default(key)) continue;
+    for (const ParameterEstimate& one : estimation.parameters) {
+      if (!OfCable(one) || (key != one.unknown.name && key != one.unknown.name + "1")) continue;
+      line += one.determined
+                  ? "  # identified, +- " + FormatRounded(kNormal95 * one.sd, 2) + " (95 %)"
+                  : "  # not determined by the data: " + one.reason;
+    }
+    text += line + "\n";
+  }
+  return text;
+}
+
+std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit) {
+  std::vector<std::string> columns;
+  Eigen::MatrixXd values(fit.simulated.rows(), 2 * fit.simulated.cols());
+  for (Eigen::Index c = 0; c < fit.simulated.cols(); ++c) {
+    const std::string& column = experiment.channels[static_cast<std::size_t>(c)].column;
+    columns.push_back(column);
+    columns.push_back(column + ".fit");
+    values.col(2 * c) = experiment.record.values.col(c);
+    values.col(2 * c + 1) = fit.simulated.col(c);
+  }
+  return RecordCsv(experiment.record, columns, values);
+}
+
+std::string AnswerTable(const Estimation& estimation) {
+  std::ostringstream out;
+  char line[256];
+  std::snprintf(line, sizeof line, "%-22s %13s %13s %13s  %-9s\n", "parameter", "value",
+                "95 % from", "to", "unit");
+  out << line;
+  for (const ParameterEstimate& one : estimation.parameters) {
+    if (!OfCable(one)) continue;
+    if (one.determined)
+      std::snprintf(line, sizeof line, "%-22s %13s %13s %13s  %-9s\n", one.unknown.name.c_str(),
+                    FormatRounded(one.value, 5).c_str(), FormatRounded(one.low, 4).c_str(),
+                    FormatRounded(one.high, 4).c_str(), one.unknown.unit.c_str());
+    else
+      std::snprintf(line, sizeof line, "%-22s %13s  %s\n", one.unknown.name.c_str(), "undetermined",
+                    one.reason.substr(0, 200).c_str());
+    out << line;
+  }
+  return out.str();
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,24 @@
+// What cable_identify leaves behind, as text.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "cosserat_cable/identification/estimation.h"
+
+namespace cosserat_cable {
+
+/// identification.json.
+nlohmann::json AnswerJson(const MeasurementSet& set, const Estimation& estimation);
+
+/// identified_cable.yaml: a specimen with what was identified, each number with its uncertainty,
+/// and with what was not, marked so.
+std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& estimation);
+
+/// fit/NAME.csv: the record's columns, and beside each the simulated one (COLUMN.fit).
+std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit);
+
+/// A table for the terminal.
+std::string AnswerTable(const Estimation& estimation);
+
+}  // namespace cosserat_cable

@@ -1,0 +1,102 @@
+#include "cosserat_cable/identification/identify_run.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <vector>
+
+#include "answer.h"
+#include "cosserat_cable/console/interrupt.h"
+#include "cosserat_cable/console/output_file.h"
+#include "cosserat_cable/console/progress.h"
+#include "cosserat_cable/identification/estimation.h"
+
+namespace cosserat_cable {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs a program and waits for it.
+/// @return whether it ended with 0
+bool RunProgram(const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child < 0) return false;
+  if (child == 0) {
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments)
+      argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    execvp(argv[0], argv.data());
+    std::perror(argv[0]);
+    _exit(127);
+  }
+  int status = 0;
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+ExitCode RunIdentify(const IdentifyRunOptions& options) {
+  Problems problems, warnings;
+  const MeasurementSet set = LoadMeasurementSet(options.set, &problems);
+  if (problems.empty()) CheckPlausibility(set, &problems, &warnings);
+  const auto refuse = [&] {
+    problems.SortByLine();
+    std::cerr << problems.ToString();
+    return kExitBadInput;
+  };
+  if (!problems.empty()) return refuse();
+
+  CatchInterrupts();
+  EstimationOptions estimation_options;
+  estimation_options.unknowns = options.unknowns;
+  estimation_options.profiles = options.profiles;
+  Estimation estimation;
+  {
+    Progress progress(100, "%");
+    estimation_options.progress = [&](const std::string& what, double part) {
+      progress.Update(100 * part, what);
+      return !Interrupted();
+    };
+    estimation = Estimate(set, estimation_options, &problems);
+  }
+  if (!problems.empty()) return refuse();
+  if (!estimation.ok) {
+    std::cerr << (estimation.interrupted ? "interrupted: nothing was written" : estimation.message)
+              << "\n";
+    return estimation.interrupted ? kExitInterrupted : kExitFailed;
+  }
+  for (const Problem& warning : warnings.all()) estimation.warnings.push_back(warning.ToString());
+
+  const nlohmann::json answer = AnswerJson(set, estimation);
+  try {
+    const fs::path folder(options.output);
+    fs::create_directories(folder / "fit");
+    for (std::size_t e = 0; e < set.experiments.size(); ++e)
+      WriteWhole((folder / "fit" / (set.experiments[e].name + ".csv")).string(),
+                 FitCsv(set.experiments[e], estimation.experiments[e]));
+    WriteWhole((folder / "identified_cable.yaml").string(), IdentifiedCableText(set, estimation));
+    WriteWhole((folder / "identification.json").string(), answer.dump(2) + "\n");
+    if (!options.json.empty()) WriteWhole(options.json, answer.dump(2) + "\n");
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return kExitFileTrouble;
+  }
+  std::cout << AnswerTable(estimation);
+  for (const std::string& warning : estimation.warnings)
+    std::cerr << "warning: " << warning << "\n";
+  std::printf("identified in %.1f s\n", estimation.seconds);
+  if (!options.report) return kExitDone;
+  std::vector<std::string> report = {options.report_program, options.output};
+  if (options.pdf) report.push_back("--pdf");
+  if (RunProgram(report)) return kExitDone;
+  std::cerr << options.output << "/report.html: could not be written; the numbers are there\n";
+  return kExitFileTrouble;
+}
+
+}  // namespace cosserat_cable
