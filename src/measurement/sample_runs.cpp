@@ -25,6 +25,16 @@ std::vector<SampleRun> Runs(const Values& values) {
   return runs;
 }
 
+// How many samples in a row one value of the sensor has: more than one where it is logged faster
+// than it measures.
+Eigen::Index TypicalCount(const std::vector<SampleRun>& runs) {
+  std::vector<Eigen::Index> counts;
+  for (const SampleRun& run : runs) counts.push_back(run.count);
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  return *middle;
+}
+
 // The smallest step that the signal makes.
 double Resolution(const Values& values) {
   double smallest = std::numeric_limits<double>::infinity();
@@ -47,14 +57,17 @@ double LargestStepAround(const Values& values, const SampleRun& run) {
 
 std::vector<SampleRun> FrozenRuns(const Values& values) {
   std::vector<SampleRun> frozen;
-  Eigen::Index steps = values.size() - 1, changes = -1;
-  for (const SampleRun& run : Runs(values)) {
-    ++changes;
-    if (run.count < kFrozen) continue;
+  if (values.size() == 0) return frozen;
+  const std::vector<SampleRun> runs = Runs(values);
+  const Eigen::Index typical = TypicalCount(runs);
+  Eigen::Index steps = values.size() - 1;
+  for (const SampleRun& run : runs) {
+    if (run.count < kFrozen * typical) continue;
     frozen.push_back(run);
     steps -= run.count - 1;
   }
-  const bool moves = steps >= kFrozen && 2 * changes > steps;
+  const auto changes = static_cast<Eigen::Index>(runs.size()) - 1;
+  const bool moves = steps >= kFrozen && 2 * typical * changes > steps;
   return moves ? frozen : std::vector<SampleRun>();
 }
 
@@ -63,15 +76,17 @@ std::vector<SampleRun> ClippedRuns(const Values& values) {
   if (values.size() == 0 || values.maxCoeff() == values.minCoeff()) return clipped;
   const double most = values.maxCoeff(), least = values.minCoeff();
   const double resolution = Resolution(values);
+  const std::vector<SampleRun> runs = Runs(values);
+  const Eigen::Index typical = TypicalCount(runs);
   Eigen::Index longest = 0;
-  for (const SampleRun& run : Runs(values)) {
+  for (const SampleRun& run : runs) {
     const double value = values[run.first];
-    if (run.count < kClipped || (value != most && value != least)) continue;
+    if (run.count < kClipped * typical || (value != most && value != least)) continue;
     if (LargestStepAround(values, run) <= kJump * resolution) continue;
     clipped.push_back(run);
     longest = std::max(longest, run.count);
   }
-  const bool certain = clipped.size() > 1 || longest >= kClippedAlone;
+  const bool certain = clipped.size() > 1 || longest >= kClippedAlone * typical;
   return certain ? clipped : std::vector<SampleRun>();
 }
 

@@ -77,6 +77,19 @@ TEST(Plausibility, CoarseStepsAreNoClipping) {
   EXPECT_TRUE(FrozenRuns(steps).empty());
 }
 
+TEST(Plausibility, ASlowSensorIsNotFrozen) {
+  constexpr int kRepeats = 12;
+  Eigen::VectorXd slow(kRepeats * kRows);
+  for (int i = 0; i < slow.size(); ++i) slow[i] = std::cos(2 * kPi * (i / kRepeats) / 37.3);
+  EXPECT_TRUE(ClippedRuns(slow).empty());
+  EXPECT_TRUE(FrozenRuns(slow).empty());
+  slow.segment(1000, 15 * kRepeats).setConstant(0.1);
+  ASSERT_EQ(FrozenRuns(slow).size(), 1u);
+  EXPECT_EQ(FrozenRuns(slow)[0].first, 1000);
+  EXPECT_EQ(ClippedRuns(slow.cwiseMin(0.8)).size(), 11u)
+      << "turns at the top in 400 / 37.3 periods";
+}
+
 TEST(Plausibility, Constant) {
   const Looks looks = Look([](int, double) { return 0.5e-3; });
   EXPECT_EQ(looks.warnings,

@@ -1,4 +1,7 @@
 // Stretches of samples that a sensor did not measure: it stood still, or it was at its limit.
+//
+// Where a sensor is logged faster than it measures, each of its values stands several times; counts
+// of samples below are then of such values.
 #pragma once
 
 #include <Eigen/Core>
