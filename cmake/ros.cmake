@@ -95,7 +95,8 @@ foreach(folder launch config urdf)
 endforeach()
 
 # The tools in Python find their shared code beside them.
-catkin_install_python(PROGRAMS scripts/travel_to_bag scripts/plot_apex scripts/plot_modes
+catkin_install_python(PROGRAMS scripts/travel_to_bag scripts/bag_to_set scripts/plot_apex
+  scripts/plot_modes
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/pylib DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 

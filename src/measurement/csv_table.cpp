@@ -204,7 +204,7 @@ bool CheckColumns(const CsvTable& table, const std::vector<std::string>& expecte
     const std::string nearest = NearestWord(column, strange);
     problems->Add(table.path, 1, column,
                   "no such column, expected one in " + what +
-                      (nearest.empty() ? "" : ": did you mean it by '" + nearest + "'?"));
+                      (nearest.empty() ? "" : ": is it meant by '" + nearest + "'?"));
   }
   for (const std::string& column : strange) {
     problems->Add(table.path, 1, column, "got a column of this name, expected none in " + what);

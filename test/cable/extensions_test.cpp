@@ -169,7 +169,7 @@ TEST(Extensions, HaveNumbersThatIdentificationMayAdjust) {
       "of the cable's extensions: did you mean 'extensions.clamp_damping.a.bending'?\n"
       "f:18: cable.uncertain[2]: got 'extensions', expected one of length, diameter, "
       "mass_per_length, EI, EI1, EI2, GJ, EA, GA, GA1, GA2, eta_EI, eta_EI1, eta_EI2, eta_GJ, "
-      "eta_EA, eta_GA, eta_GA1, eta_GA2, disc.inertia\n");
+      "eta_EA, eta_GA, eta_GA1, eta_GA2, disc.inertia, D_E\n");
 }
 
 TEST(Extensions, ThatDoNotExistCannotBeSimulated) {

@@ -81,6 +81,11 @@ struct CableKeys {
 /// Reads the keys above. Nothing is required.
 CableKeys ReadCableKeys(MapReader* map);
 
+/// The keys as YAML, each line behind `indent`: what was given, and no defaults. Keys that only a
+/// vehicle's cable has (apex, avoid, contact) are left out. ReadCableKeys reads it back to the
+/// same.
+std::string WriteCableKeys(const CableKeys& keys, const std::string& indent);
+
 /// Fills in the defaults and checks what holds between keys. Missing keys, and damping that is
 /// unknown, are problems, the former at `cable`. Name, reference and clamps stay as they are.
 ///

@@ -42,7 +42,8 @@ struct Channel {
 struct Record {
   std::string file;           ///< as the set names it
   bool quasi_static = false;  ///< the first column is `step`: one equilibrium per row, in order
-  std::vector<double> t;      ///< [s], increasing; the steps 0, 1, ... of a quasi-static one
+  std::vector<double> t;      ///< [s], increasing; the steps 0, 1, ... of a quasi-static one;
+                              ///< sample i stands on line i + 2 of the file
   Eigen::MatrixXd values;     ///< a column per channel, in the order of the channels
 };
 
@@ -105,7 +106,9 @@ struct ExperimentLoad {
   };
   std::string file;  ///< empty: given in the set itself, and constant
   bool quasi_static = false;
-  std::vector<Sample> samples;  ///< constant: all act; from a file: by increasing t
+  /// Constant: all act. From a file: by t that does not decrease; samples of one t are forces at
+  /// different points.
+  std::vector<Sample> samples;
 };
 
 struct Experiment {
@@ -136,8 +139,8 @@ struct MeasurementSet {
 /// Reads FOLDER/measurement.yaml (or the file itself, where the path names one) and all files that
 /// it names. Every mistake goes to `problems` with file, line and key: unknown and missing keys,
 /// wrong types, numbers that are not finite or out of range, times that do not increase, columns
-/// that are not there, records shorter than their motions. Where `problems` grew, the result is
-/// not to be used.
+/// that are not there or that no channel names. Where `problems` grew, the result is not to be
+/// used.
 MeasurementSet LoadMeasurementSet(const std::string& path, Problems* problems);
 
 /// What does not look like a measurement although it can be read, said so that a user understands
@@ -146,8 +149,10 @@ MeasurementSet LoadMeasurementSet(const std::string& path, Problems* problems);
 void CheckPlausibility(const MeasurementSet& set, Problems* problems, Problems* warnings);
 
 /// Writes the set to a folder, which is made where it is not there: measurement.yaml and its CSVs,
-/// numbers in full precision. It reads back to the same set.
-/// @throws std::runtime_error where a file cannot be written whole
+/// numbers in full precision. It reads back to the same set. Files without a name are named after
+/// their experiment.
+/// @throws std::runtime_error where a file cannot be written whole, lies outside the folder, or
+/// would have to hold two different contents
 void WriteMeasurementSet(const MeasurementSet& set, const std::string& folder);
 
 }  // namespace cosserat_cable

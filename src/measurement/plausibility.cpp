@@ -1,0 +1,241 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/measurement/measurement_set.h"
+#include "cosserat_cable/measurement/sample_runs.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Beyond the cable's length: stretch, slack in the calibration, but no slip of units.
+constexpr double kReach = 1.1;
+// Fewer samples beyond are outliers of a tracker, more are another unit.
+constexpr double kOutliers = 0.1;
+constexpr std::size_t kFewSamples = 8;
+constexpr std::size_t kFewSteps = 3;
+// [median periods]
+constexpr double kGap = 5;
+// [rad] Eight turns; in degrees it is less than one.
+constexpr double kManyTurns = 50;
+constexpr std::size_t kMostShown = 5;
+
+std::string Count(std::size_t count, std::size_t of) {
+  return std::to_string(count) + " of " + std::to_string(of) + " samples (" +
+         FormatRounded(100.0 * static_cast<double>(count) / static_cast<double>(of)) + " %)";
+}
+
+// Where a clamp is, well enough to tell metres from millimetres: straight lines between samples.
+Eigen::Vector3d PositionAt(const EndCondition& clamp, double t) {
+  if (!clamp.motion || clamp.motion->t.empty()) return clamp.pose.p;
+  const std::vector<double>& times = clamp.motion->t;
+  const std::vector<Pose>& poses = clamp.motion->poses;
+  const auto after = std::upper_bound(times.begin(), times.end(), t);
+  if (after == times.begin()) return poses.front().p;
+  if (after == times.end()) return poses.back().p;
+  const auto i = static_cast<std::size_t>(after - times.begin());
+  const double u = (t - times[i - 1]) / (times[i] - times[i - 1]);
+  return (1 - u) * poses[i - 1].p + u * poses[i].p;
+}
+
+bool HoldsPlace(const EndCondition& end) {
+  const auto& free = end.translation_free;
+  return end.kind == EndCondition::Kind::kClamp && !free[0] && !free[1] && !free[2];
+}
+
+class ExperimentLooks {
+ public:
+  ExperimentLooks(const MeasurementSet& set, const Experiment& experiment, Problems* problems,
+                  Problems* warnings)
+      : experiment_(experiment), problems_(problems), warnings_(warnings) {
+    path_ = (std::filesystem::path(set.folder) / experiment.record.file).string();
+    CableKeys cable = experiment.specimen;
+    cable.FillFrom(set.cable);
+    reach_ = kReach * cable.length.value.value_or(0);
+    length_ = FormatNumber(cable.length.value.value_or(0)) + " m";
+  }
+
+  void Check() {
+    CheckSampling();
+    for (std::size_t k = 0; k < experiment_.channels.size(); ++k) {
+      const Channel& channel = experiment_.channels[k];
+      const Eigen::VectorXd values = experiment_.record.values.col(static_cast<Eigen::Index>(k));
+      if (values.size() < 2) continue;
+      CheckMovement(channel, values);
+      if (channel.quantity == Quantity::kPosition) CheckReach(channel, values);
+      if (channel.quantity == Quantity::kAngle) CheckAngle(channel, values);
+    }
+    CheckClampDistance();
+    CheckStart();
+  }
+
+ private:
+  static int LineOf(Eigen::Index row) { return static_cast<int>(row) + 2; }
+
+  void Warn(Eigen::Index row, const std::string& column, const std::string& message) {
+    warnings_->Add(path_, LineOf(row), column, message);
+  }
+
+  void CheckSampling() {
+    const std::vector<double>& t = experiment_.record.t;
+    const std::size_t few = experiment_.quasi_static() ? kFewSteps : kFewSamples;
+    if (t.size() < few) {
+      warnings_->Add(path_, "got " + std::to_string(t.size()) + " samples, expected at least " +
+                                std::to_string(few) + ": too few to tell motion from noise");
+      return;
+    }
+    if (experiment_.quasi_static()) return;
+    std::vector<double> periods;
+    for (std::size_t i = 1; i < t.size(); ++i) periods.push_back(t[i] - t[i - 1]);
+    std::vector<double> sorted = periods;
+    std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+    const double median = sorted[sorted.size() / 2];
+    std::size_t gaps = 0;
+    double missing = 0;
+    for (std::size_t i = 0; i < periods.size(); ++i) {
+      if (periods[i] <= kGap * median) continue;
+      missing += periods[i];
+      if (++gaps > kMostShown) continue;
+      Warn(static_cast<Eigen::Index>(i) + 1, "t",
+           "got no sample for " + FormatRounded(periods[i]) + " s, " +
+               FormatRounded(periods[i] / median) + " times the usual period: a gap");
+    }
+    if (gaps > kMostShown) {
+      warnings_->Add(path_, "got " + std::to_string(gaps) + " gaps, " + FormatRounded(missing) +
+                                " s of " + FormatRounded(t.back() - t.front()) + " s");
+    }
+  }
+
+  void CheckMovement(const Channel& channel, const Eigen::VectorXd& values) {
+    if (values.maxCoeff() == values.minCoeff()) {
+      warnings_->Add(path_, 1, channel.column,
+                     "got the same value " + FormatNumber(values[0]) +
+                         " throughout: it tells nothing of the cable, not even the noise");
+      return;
+    }
+    const std::vector<SampleRun> clipped = ClippedRuns(values);
+    std::vector<SampleRun> frozen = FrozenRuns(values);
+    const auto is_clipped = [&](const SampleRun& run) {
+      return std::any_of(clipped.begin(), clipped.end(),
+                         [&](const SampleRun& other) { return other.first == run.first; });
+    };
+    frozen.erase(std::remove_if(frozen.begin(), frozen.end(), is_clipped), frozen.end());
+    WarnOfRuns(channel, values, clipped, "at the largest or smallest value: clipped");
+    WarnOfRuns(channel, values, frozen,
+               "while it moves elsewhere: frozen, or still within the sensor's resolution");
+  }
+
+  void WarnOfRuns(const Channel& channel, const Eigen::VectorXd& values,
+                  const std::vector<SampleRun>& runs, const std::string& what) {
+    Eigen::Index together = 0;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      const SampleRun& run = runs[i];
+      together += run.count;
+      if (i >= kMostShown) continue;
+      Warn(run.first, channel.column,
+           "got " + FormatNumber(values[run.first]) + " on lines " +
+               std::to_string(LineOf(run.first)) + " to " +
+               std::to_string(LineOf(run.first + run.count - 1)) + ", " +
+               Count(static_cast<std::size_t>(run.count), static_cast<std::size_t>(values.size())) +
+               ", " + what);
+    }
+    if (runs.size() > kMostShown) {
+      Warn(runs[kMostShown].first, channel.column,
+           "got " + std::to_string(runs.size()) + " such stretches from here and before, " +
+               Count(static_cast<std::size_t>(together), static_cast<std::size_t>(values.size())) +
+               " together");
+    }
+  }
+
+  // Says a slip of units where most samples show it, outliers where few do.
+  void Judge(const std::string& file, int line, const std::string& key, std::size_t beyond,
+             std::size_t of, const std::string& message) {
+    if (beyond == 0) return;
+    const bool unit = static_cast<double>(beyond) > kOutliers * static_cast<double>(of);
+    (unit ? problems_ : warnings_)
+        ->Add(file, line, key, message + (unit ? ": is it in mm?" : ": an outlier?"));
+  }
+
+  void CheckReach(const Channel& channel, const Eigen::VectorXd& values) {
+    if (!HoldsPlace(experiment_.a) || channel.unknown_offset) {
+      const double range = values.maxCoeff() - values.minCoeff();
+      if (range <= 2 * reach_) return;
+      Judge(path_, 1, channel.column, 1, 1,
+            "moves by " + FormatRounded(range) + " m, the cable is " + length_ + " long");
+      return;
+    }
+    std::size_t beyond = 0;
+    Eigen::Index worst = 0;
+    double farthest = reach_;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+      const double t = experiment_.record.t[static_cast<std::size_t>(i)];
+      const double origin = channel.in_frame_a ? 0 : PositionAt(experiment_.a, t)[channel.axis];
+      const double distance = std::abs(values[i] - origin);
+      if (distance > reach_) ++beyond;
+      if (distance <= farthest) continue;
+      farthest = distance;
+      worst = i;
+    }
+    const auto size = static_cast<std::size_t>(values.size());
+    Judge(path_, LineOf(worst), channel.column, beyond, size,
+          "is " + FormatRounded(farthest) + " m from clamp a here and farther than the cable's " +
+              length_ + " in " + Count(beyond, size));
+  }
+
+  void CheckAngle(const Channel& channel, const Eigen::VectorXd& values) {
+    Eigen::Index row = 0;
+    const double largest = values.cwiseAbs().maxCoeff(&row);
+    if (largest <= kManyTurns || channel.unknown_offset) return;
+    Warn(row, channel.column, "got " + FormatRounded(largest) + " rad: is it in degrees?");
+  }
+
+  void CheckClampDistance() {
+    const EndCondition& a = experiment_.a;
+    const EndCondition& b = experiment_.b;
+    if (!HoldsPlace(a) || !HoldsPlace(b)) return;
+    std::vector<double> times = {experiment_.start_time()};
+    for (const EndCondition* end : {&a, &b}) {
+      if (end->motion) times.insert(times.end(), end->motion->t.begin(), end->motion->t.end());
+    }
+    std::size_t beyond = 0;
+    double farthest = 0;
+    for (const double t : times) {
+      const double distance = (PositionAt(b, t) - PositionAt(a, t)).norm();
+      if (distance > reach_) ++beyond;
+      farthest = std::max(farthest, distance);
+    }
+    Judge(b.mark.file, b.mark.line, b.mark.key, beyond, times.size(),
+          "the clamps are " + FormatRounded(farthest) + " m apart, the cable is " + length_ +
+              " long");
+  }
+
+  void CheckStart() {
+    const StartCondition& start = experiment_.start;
+    if (!HoldsPlace(experiment_.a)) return;
+    const Eigen::Vector3d a = PositionAt(experiment_.a, experiment_.start_time());
+    const auto check = [&](const PointAt& point, const std::string& key) {
+      const double distance = (point.position_W - a).norm();
+      if (distance <= reach_) return;
+      Judge(start.mark.file, start.mark.line, start.mark.key + "." + key, 1, 1,
+            "is " + FormatRounded(distance) + " m from clamp a, the cable is " + length_ + " long");
+    };
+    if (start.near) check(*start.near, "near");
+    if (start.kind == StartCondition::Kind::kHeld) check(start.held, "held");
+  }
+
+  const Experiment& experiment_;
+  Problems* problems_;
+  Problems* warnings_;
+  std::string path_, length_;
+  double reach_ = 0;  // [m] from clamp a
+};
+
+}  // namespace
+
+void CheckPlausibility(const MeasurementSet& set, Problems* problems, Problems* warnings) {
+  for (const Experiment& experiment : set.experiments)
+    ExperimentLooks(set, experiment, problems, warnings).Check();
+}
+
+}  // namespace cosserat_cable

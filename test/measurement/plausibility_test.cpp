@@ -1,0 +1,163 @@
+// What does not look like a measurement is said; what does is not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "cosserat_cable/measurement/sample_runs.h"
+#include "measurement/set_folder.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kRows = 400;
+
+// A noisy, decaying oscillation of 20 mm at 4 Hz, every 5 ms.
+double Tip(int i) {
+  static std::mt19937 generator(5);
+  std::normal_distribution<double> noise(0, 2e-5);
+  const double t = 0.005 * i;
+  return 0.02 * std::exp(-t) * std::cos(2 * kPi * 4 * t) + noise(generator);
+}
+
+using Change = std::function<double(int, double)>;
+
+struct Looks {
+  std::string problems, warnings;
+};
+
+// What is said of the ring-down, tip_x changed.
+Looks Look(
+    const Change& change, const std::string& set = std::string(kHead) + kRingdown,
+    const std::function<double(int)>& time = [](int i) { return 0.005 * i; }) {
+  SetFolder folder;
+  WriteAll(&folder, set);
+  std::string text = "t,tip_x,tip_z\n";
+  for (int i = 0; i < kRows; ++i) {
+    text += std::to_string(time(i)) + "," + std::to_string(change(i, Tip(i))) + "," +
+            std::to_string(0.245 + 0.0001 * Tip(i) / 0.02 + 1e-6 * (i % 7)) + "\n";
+  }
+  folder.Write("ringdown_small.csv", text);
+  const MeasurementSet read = folder.LoadGood();
+  Problems problems, warnings;
+  CheckPlausibility(read, &problems, &warnings);
+  return {folder.Anonymous(problems), folder.Anonymous(warnings)};
+}
+double Same(int, double x) { return x; }
+
+TEST(Plausibility, AMeasurementIsOne) {
+  const Looks looks = Look(Same);
+  EXPECT_EQ(looks.problems, "");
+  EXPECT_EQ(looks.warnings, "");
+}
+
+TEST(Plausibility, Frozen) {
+  const Looks looks = Look([](int i, double x) { return i >= 100 && i < 140 ? 0.00123 : x; });
+  EXPECT_EQ(looks.problems, "");
+  EXPECT_EQ(looks.warnings,
+            "ringdown_small.csv:102: tip_x: got 0.00123 on lines 102 to 141, 40 of 400 samples (10 "
+            "%), while it moves elsewhere: frozen, or still within the sensor's resolution\n");
+}
+
+TEST(Plausibility, Clipped) {
+  const Looks looks = Look([](int, double x) { return std::min(x, 0.012); });
+  EXPECT_EQ(looks.problems, "");
+  EXPECT_NE(looks.warnings.find("tip_x: got 0.012 on lines "), std::string::npos) << looks.warnings;
+  EXPECT_NE(looks.warnings.find(", at the largest or smallest value: clipped\n"), std::string::npos)
+      << looks.warnings;
+  EXPECT_EQ(looks.warnings.find("frozen"), std::string::npos) << looks.warnings;
+}
+
+TEST(Plausibility, CoarseStepsAreNoClipping) {
+  Eigen::VectorXd steps(kRows);
+  for (int i = 0; i < kRows; ++i) steps[i] = std::round(20 * std::cos(2 * kPi * i / 100.0));
+  EXPECT_TRUE(ClippedRuns(steps).empty());
+  EXPECT_TRUE(FrozenRuns(steps).empty());
+}
+
+TEST(Plausibility, ASlowSensorIsNotFrozen) {
+  constexpr int kRepeats = 12;
+  Eigen::VectorXd slow(kRepeats * kRows);
+  for (int i = 0; i < slow.size(); ++i) slow[i] = std::cos(2 * kPi * (i / kRepeats) / 37.3);
+  EXPECT_TRUE(ClippedRuns(slow).empty());
+  EXPECT_TRUE(FrozenRuns(slow).empty());
+  slow.segment(1000, 15 * kRepeats).setConstant(0.1);
+  ASSERT_EQ(FrozenRuns(slow).size(), 1u);
+  EXPECT_EQ(FrozenRuns(slow)[0].first, 1000);
+  EXPECT_EQ(ClippedRuns(slow.cwiseMin(0.8)).size(), 11u)
+      << "turns at the top in 400 / 37.3 periods";
+}
+
+TEST(Plausibility, Constant) {
+  const Looks looks = Look([](int, double) { return 0.5e-3; });
+  EXPECT_EQ(looks.warnings,
+            "ringdown_small.csv:1: tip_x: got the same value 0.0005 throughout: it tells nothing "
+            "of the cable, not even the noise\n");
+}
+
+TEST(Plausibility, Millimetres) {
+  // Only beyond 1.1 times the cable's 250 mm a slip is certain.
+  const Looks looks = Look([](int, double x) { return 1000 * x; });
+  EXPECT_EQ(looks.warnings, "");
+  EXPECT_NE(looks.problems.find("m from clamp a here and farther than the cable's 0.25 m in "),
+            std::string::npos)
+      << looks.problems;
+  EXPECT_NE(looks.problems.find("is it in mm?"), std::string::npos);
+}
+
+TEST(Plausibility, Outliers) {
+  const Looks looks = Look([](int i, double x) { return i == 50 || i == 60 ? x + 0.01 * i : x; });
+  EXPECT_EQ(looks.problems, "");
+  EXPECT_NE(looks.warnings.find("ringdown_small.csv:62: tip_x: is 0.6"), std::string::npos)
+      << looks.warnings;
+  EXPECT_NE(looks.warnings.find("in 2 of 400 samples (0.5 %): an outlier?"), std::string::npos)
+      << looks.warnings;
+}
+
+TEST(Plausibility, Gap) {
+  const Looks looks = Look(Same, std::string(kHead) + kRingdown,
+                           [](int i) { return 0.005 * i + (i >= 200 ? 0.5 : 0); });
+  EXPECT_EQ(looks.problems, "");
+  EXPECT_EQ(looks.warnings,
+            "ringdown_small.csv:202: t: got no sample for 0.505 s, 101 times the usual period: a "
+            "gap\n");
+}
+
+TEST(Plausibility, FewSamplesAndDegrees) {
+  SetFolder folder;
+  WriteAll(&folder, std::string(kHead) + kTorsion);
+  folder.Write("torsion/pendulum.csv", "t,phi_dot,phi\n0,0,69\n1,-3,-66\n");
+  Problems problems, warnings;
+  CheckPlausibility(folder.LoadGood(), &problems, &warnings);
+  EXPECT_EQ(folder.Anonymous(problems), "");
+  EXPECT_EQ(folder.Anonymous(warnings),
+            "torsion/pendulum.csv: got 2 samples, expected at least 8: too few to tell motion from "
+            "noise\n"
+            "torsion/pendulum.csv:2: phi: got 69 rad: is it in degrees?\n");
+}
+
+TEST(Plausibility, ClampsAndStartsOutOfReach) {
+  const std::string set = Replaced(
+      Replaced(std::string(kHead) + kRingdown, "b: free", "b: {pose: [0, 24, 0, 0, 0, 0, 1]}"),
+      "position: [0.01, 0, 0.249]", "position: [10, 0, 249]");
+  const Looks looks = Look(Same, set);
+  EXPECT_EQ(looks.problems,
+            "measurement.yaml:15: experiments[0].b: the clamps are 24 m apart, the cable is 0.25 m "
+            "long: is it in mm?\n"
+            "measurement.yaml:16: experiments[0].start.held: is 249 m from clamp a, the cable is "
+            "0.25 m long: is it in mm?\n");
+  EXPECT_EQ(looks.warnings, "");
+}
+
+TEST(Plausibility, GoodSetsOfEachKind) {
+  SetFolder folder;
+  WriteAll(&folder, AllSets());
+  Problems problems, warnings;
+  CheckPlausibility(folder.LoadGood(), &problems, &warnings);
+  EXPECT_EQ(problems.ToString(), "");
+}
+
+}  // namespace
+}  // namespace cosserat_cable
