@@ -19,7 +19,6 @@ find_package(catkin REQUIRED COMPONENTS
   tf2_msgs
   visualization_msgs
 )
-find_package(CLI11 REQUIRED)
 
 add_message_files(DIRECTORY msg FILES ApexTelemetry.msg)
 generate_messages(DEPENDENCIES std_msgs)
@@ -72,15 +71,12 @@ foreach(app ${apps})
   if(name STREQUAL apex_check AND NOT GTest_FOUND)
     continue()
   endif()
-  add_executable(${name} ${app})
+  if(NOT TARGET ${name})
+    add_executable(${name} ${app})
+    target_link_libraries(${name} cosserat_cable_ros CLI11::CLI11)
+  endif()
   set_target_properties(${name} PROPERTIES
     RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-  target_link_libraries(${name} cosserat_cable_ros CLI11::CLI11)
-  if(name STREQUAL cable_simulate OR name STREQUAL cable_identify)
-    target_link_libraries(${name} cosserat_cable_identification)
-    target_compile_definitions(${name} PRIVATE
-      COSSERAT_CABLE_SCRIPTS="${CMAKE_CURRENT_SOURCE_DIR}/scripts")
-  endif()
   if(name STREQUAL apex_check)
     target_link_libraries(${name} GTest::gtest)
   endif()

@@ -2,7 +2,7 @@
 #include <filesystem>
 
 #include "cosserat_cable/identification/identify_run.h"
-#include "engine_arguments.h"
+#include "parse_arguments.h"
 
 int main(int argc, char** argv) {
   cosserat_cable::IdentifyRunOptions options;

@@ -1,6 +1,6 @@
 // Every experiment of a measurement set, simulated with a cable.
 #include "cosserat_cable/identification/simulate_run.h"
-#include "engine_arguments.h"
+#include "parse_arguments.h"
 
 int main(int argc, char** argv) {
   cosserat_cable::SimulateRunOptions options;

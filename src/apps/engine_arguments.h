@@ -1,11 +1,8 @@
 // The command-line options that more than one tool has.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
-
 #include "cosserat_cable/ros/inputs.h"
+#include "parse_arguments.h"
 
 namespace cosserat_cable {
 
@@ -22,25 +19,6 @@ inline void AddInputArguments(CLI::App* app, InputPaths* paths, EngineOptions* e
   app->add_option("--max-gap", engine->links.max_gap,
                   "samples farther apart are not interpolated: the pose is held [s]")
       ->capture_default_str();
-}
-
-/// Parses; false where the program is to end with `code`.
-inline bool Parse(CLI::App* app, int argc, char** argv, int* code) {
-  // roslaunch appends __name:=... and __log:=... to every program, also to those that need no
-  // master.
-  std::vector<std::string> arguments;
-  for (int i = argc - 1; i > 0; --i) {  // CLI11 takes them in reverse
-    const std::string argument = argv[i];
-    const bool remapping = argument.rfind("__", 0) == 0 && argument.find(":=") != std::string::npos;
-    if (!remapping) arguments.push_back(argument);
-  }
-  try {
-    app->parse(arguments);
-    return true;
-  } catch (const CLI::ParseError& error) {
-    *code = app->exit(error) == 0 ? 0 : 2;
-    return false;
-  }
 }
 
 }  // namespace cosserat_cable

@@ -91,15 +91,25 @@ void Rig::SetLoads(double t) {
     for (const ExperimentLoad::Sample& sample : load.samples)
       now.push_back({sample.s, sample.force_W, Vector3d::Zero(), false});
   } else {
+    // Samples of one time are forces at several points: the i-th goes over into the i-th.
     const auto after = std::upper_bound(
         load.samples.begin(), load.samples.end(), t,
         [](double time, const ExperimentLoad::Sample& sample) { return time < sample.t; });
-    const auto right = after == load.samples.end() ? after - 1 : after;
-    const auto left = after == load.samples.begin() ? after : after - 1;
-    const double span = right->t - left->t;
-    const double x = span > 0 ? std::clamp((t - left->t) / span, 0.0, 1.0) : 0.0;
-    now.push_back({left->s + x * (right->s - left->s),
-                   left->force_W + x * (right->force_W - left->force_W), Vector3d::Zero(), false});
+    const auto first_at = [&](double time) {
+      return std::lower_bound(
+          load.samples.begin(), load.samples.end(), time,
+          [](const ExperimentLoad::Sample& sample, double limit) { return sample.t < limit; });
+    };
+    auto left = after == load.samples.begin() ? after : first_at((after - 1)->t);
+    auto right = after == load.samples.end() ? left : after;
+    const double from = left->t, to = right->t;
+    const double x = to > from ? std::clamp((t - from) / (to - from), 0.0, 1.0) : 0.0;
+    for (; left != load.samples.end() && left->t == from; ++left) {
+      const bool paired = right != load.samples.end() && right->t == to;
+      const ExperimentLoad::Sample& next = paired ? *right++ : *left;
+      now.push_back({left->s + x * (next.s - left->s),
+                     left->force_W + x * (next.force_W - left->force_W), Vector3d::Zero(), false});
+    }
   }
   if (loads_)
     loads_->loads = std::move(now);

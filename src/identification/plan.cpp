@@ -1,0 +1,191 @@
+#include "cosserat_cable/identification/plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cable_number.h"
+#include "fit.h"
+#include "information.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kNormal95 = 1.959964;
+constexpr double kInertias[] = {0.5, 1.0, 2.0};
+constexpr int kLengths = 5;
+
+/// The experiment with another length and disc: places scaled about clamp a.
+Experiment Scaled(const Experiment& like, double from, double to, double inertia_factor) {
+  Experiment experiment = like;
+  const double ratio = to / from;
+  SetNumber("length", to, &experiment.specimen);
+  for (Channel& channel : experiment.channels) channel.s *= ratio;
+  experiment.start.held.s *= ratio;
+  const Eigen::Vector3d a = experiment.a.pose.p;
+  experiment.start.held.position_W = a + ratio * (experiment.start.held.position_W - a);
+  experiment.b.disc.inertia *= inertia_factor;
+  return experiment;
+}
+
+/// Only what is held at one end can be scaled.
+bool CanBeScaled(const Experiment& experiment) {
+  return !experiment.quasi_static() && !experiment.a.motion &&
+         experiment.b.kind != EndCondition::Kind::kClamp &&
+         experiment.start.kind != StartCondition::Kind::kUnknown;
+}
+
+struct Rated {
+  double length = 0, inertia = 0;
+  std::size_t like = 0;
+  Eigen::MatrixXd information;  // of one record, in units of the scales
+};
+
+double HalfWidth(const Eigen::MatrixXd& information, int target, double value, double scale) {
+  // An unknown that no record shows is not looked for either.
+  std::vector<int> which;
+  for (int i = 0; i < information.rows(); ++i)
+    if (information(i, i) > 0) which.push_back(i);
+  if (std::find(which.begin(), which.end(), target) == which.end() || !(value > 0))
+    return std::numeric_limits<double>::infinity();
+  const double variance = CovarianceOf({information, information}, which)(target, target);
+  return kNormal95 * std::sqrt(variance) * scale / value;
+}
+
+std::string WorstOf(const Estimation& estimation) {
+  std::string worst;
+  double widest = 0;
+  for (const ParameterEstimate& one : estimation.parameters) {
+    if (one.unknown.kind != Unknown::Kind::kCable) continue;
+    const double width = one.determined && one.value > 0 ? one.sd / one.value
+                                                         : std::numeric_limits<double>::infinity();
+    if (width > widest) {
+      widest = width;
+      worst = one.unknown.name;
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const PlanOptions& options,
+              const EstimationProgress& progress) {
+  Plan plan;
+  plan.accuracy = options.accuracy;
+  plan.target = options.target.empty() ? WorstOf(estimation) : options.target;
+
+  MeasurementSet rigs = set;
+  rigs.cable = estimation.cable;
+  rigs.cable.uncertain = set.cable.uncertain;
+  std::vector<Rated> rated;
+  std::vector<double> lengths;
+  for (const Experiment& experiment : set.experiments)
+    lengths.push_back(SpecimenKeys(set, experiment).length.value.value_or(0));
+  const double longest =
+      options.longest > 0 ? options.longest : *std::max_element(lengths.begin(), lengths.end());
+  double shortest =
+      options.shortest > 0 ? options.shortest : *std::min_element(lengths.begin(), lengths.end());
+  if (shortest > 0.75 * longest) shortest = 0.5 * longest;
+  rigs.experiments.clear();
+  NoiseLevels noise;
+  for (std::size_t e = 0; e < set.experiments.size(); ++e) {
+    const Experiment& like = set.experiments[e];
+    const bool repeated = std::any_of(
+        set.experiments.begin(), set.experiments.begin() + static_cast<std::ptrdiff_t>(e),
+        [&](const Experiment& earlier) {
+          return earlier.b.kind == like.b.kind && earlier.channels.size() == like.channels.size();
+        });
+    if (!CanBeScaled(like) || repeated) continue;
+    const bool disc = like.b.kind == EndCondition::Kind::kDisc;
+    for (int k = 0; k < kLengths; ++k)
+      for (const double factor : kInertias) {
+        if (!disc && factor != 1.0) continue;
+        const double to =
+            shortest * std::pow(longest / shortest, static_cast<double>(k) / (kLengths - 1));
+        rigs.experiments.push_back(Scaled(like, lengths[e], to, factor));
+        rated.push_back({to, disc ? like.b.disc.inertia * factor : 0.0, e, {}});
+        Eigen::VectorXd levels(like.channels.size());
+        for (std::size_t c = 0; c < like.channels.size(); ++c)
+          levels[static_cast<int>(c)] = estimation.experiments[e].channels[c].sigma;
+        noise.push_back(levels);
+      }
+  }
+  if (rigs.experiments.empty()) {
+    plan.message = "no experiment of the set is held at one end only: there is none to plan with";
+    return plan;
+  }
+
+  Problems problems;
+  UnknownOptions unknown_options;
+  unknown_options.end_damping =
+      std::any_of(estimation.parameters.begin(), estimation.parameters.end(),
+                  [](const ParameterEstimate& one) { return one.unknown.name == kEndDamping; });
+  const Unknowns unknowns(rigs, unknown_options, &problems);
+  const int target = problems.empty() ? unknowns.Find(plan.target) : -1;
+  if (target < 0) {
+    plan.message = problems.empty() ? "[" + plan.target + "] is none of the set's unknowns"
+                                    : problems.ToString();
+    return plan;
+  }
+  if (progress && !progress("planning", 0.95)) return plan;
+  const RecordModel model(unknowns);
+  const Eigen::VectorXd values = unknowns.StartValues();
+  const RecordModel::Derivatives found =
+      model.Differentiate(values, model.WholeHorizon(), RecordModel::Difference::kCentral);
+  if (!found.at.ok) {
+    plan.message = found.at.message;
+    return plan;
+  }
+  const Eigen::MatrixXd jacobian = WeightedJacobian(model, found, noise);
+  int row = 0;
+  for (std::size_t e = 0; e < rigs.experiments.size(); ++e) {
+    const auto n =
+        static_cast<int>(rigs.experiments[e].record.t.size() * rigs.experiments[e].channels.size());
+    const Eigen::MatrixXd block = jacobian.middleRows(row, n);
+    rated[e].information = block.transpose() * block;
+    row += n;
+  }
+
+  const double value = values[target], scale = unknowns.all()[target].scale;
+  for (const ParameterEstimate& one : estimation.parameters)
+    if (one.unknown.name == plan.target)
+      plan.half_width_now = one.determined && one.value > 0
+                                ? kNormal95 * one.sd / one.value
+                                : std::numeric_limits<double>::infinity();
+  // Every single length and every pair, with one disc.
+  for (std::size_t i = 0; i < rated.size(); ++i)
+    for (std::size_t k = i; k < rated.size(); ++k) {
+      if (rated[i].like != rated[k].like || rated[i].inertia != rated[k].inertia) continue;
+      const bool pair = k != i;
+      const Eigen::MatrixXd once =
+          pair ? Eigen::MatrixXd(rated[i].information + rated[k].information)
+               : rated[i].information;
+      PlanCandidate candidate;
+      candidate.like = set.experiments[rated[i].like].name;
+      candidate.lengths = {rated[i].length};
+      if (pair) candidate.lengths.push_back(rated[k].length);
+      candidate.inertia = rated[i].inertia;
+      const double single = HalfWidth(once, target, value, scale);
+      if (!std::isfinite(single)) continue;
+      // Repeats add up.
+      const double needed = std::ceil(std::pow(single / options.accuracy, 2));
+      candidate.repeats =
+          static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(options.most_repeats)));
+      candidate.half_width = single / std::sqrt(candidate.repeats);
+      plan.candidates.push_back(candidate);
+    }
+  const auto reaches = [&](const PlanCandidate& c) { return c.half_width <= options.accuracy; };
+  std::sort(plan.candidates.begin(), plan.candidates.end(),
+            [&](const PlanCandidate& a, const PlanCandidate& b) {
+              if (reaches(a) != reaches(b)) return reaches(a);
+              if (reaches(a) && a.records() != b.records()) return a.records() < b.records();
+              return a.half_width < b.half_width;
+            });
+  plan.reached = !plan.candidates.empty() && reaches(plan.candidates.front());
+  if (plan.candidates.empty())
+    plan.message = "[" + plan.target + "] shows in none of the set's rigs at any length";
+  return plan;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,160 @@
+// The rigs, against closed forms.
+#include "cosserat_cable/measurement/experiment_simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "rigs.h"
+
+namespace cosserat_cable {
+namespace {
+
+using testing::CableSpecimen;
+using testing::ChannelAt;
+using testing::kPi;
+using testing::RingDown;
+using testing::Torsion;
+
+SimulationOptions Fine() {
+  SimulationOptions options;
+  options.dt = 5e-4;
+  options.elements = 40;
+  return options;
+}
+
+/// Time of the n-th crossing of zero, between samples.
+double Crossing(const Experiment& experiment, const Eigen::VectorXd& y, int n) {
+  for (Eigen::Index i = 1; i < y.size(); ++i)
+    if (y[i - 1] * y[i] < 0 && n-- == 0) {
+      const double x = y[i - 1] / (y[i - 1] - y[i]);
+      return experiment.record.t[i - 1] + x * (experiment.record.t[i] - experiment.record.t[i - 1]);
+    }
+  return std::nan("");
+}
+
+TEST(ExperimentSimulationTest, ARingDownSwingsAsEulerAndBernoulliSay) {
+  const Experiment experiment = RingDown(0.001, 1.0, 1001);
+  const Specimen specimen = CableSpecimen();
+  const RefinedRecord refined = SimulateRefined(experiment, specimen, Fine());
+  ASSERT_TRUE(refined.record.ok) << refined.record.message;
+  const Eigen::VectorXd z = refined.record.values.col(0);
+  EXPECT_NEAR(z[0], 0.001, 1e-9);
+  const CableModel& m = specimen.cable;
+  const double w = std::pow(1.87510407 / m.length, 2) * std::sqrt(m.EI1 / m.mass_per_length);
+  // Shear and rotary inertia lower it by some 2 (d/L)^2 (1/16 + 3/16) mu^2; crossings also see the
+  // second mode's rest.
+  constexpr double kSlenderness = 2e-3;
+  EXPECT_NEAR(kPi / (Crossing(experiment, z, 9) - Crossing(experiment, z, 8)), w, kSlenderness * w);
+  // Amplitudes fall as exp(-delta t), delta = w^2 eta/(2 EI), whatever higher modes there were.
+  const double delta = w * w * m.eta_EI1 / (2 * m.EI1);
+  const auto half_swing = [&](double from, double to) {
+    double largest = 0;
+    for (Eigen::Index i = 0; i < z.size(); ++i)
+      if (experiment.record.t[i] >= from && experiment.record.t[i] < to)
+        largest = std::max(largest, std::abs(z[i]));
+    return largest;
+  };
+  const double period = 2 * kPi / w;
+  const double decay =
+      std::log(half_swing(2 * period, 3 * period) / half_swing(5 * period, 6 * period)) /
+      (3 * period);
+  constexpr double kPeaksBetweenSamples = 0.02;
+  EXPECT_NEAR(decay, delta, kPeaksBetweenSamples * delta);
+}
+
+TEST(ExperimentSimulationTest, ATorsionalPendulumFollowsEquations12And13) {
+  const double J = 2e-6, D_E = 3e-6;
+  const Experiment experiment = Torsion(J, 0.5, 1.0, 1001);
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = J;
+  specimen.cable.extensions.push_back({"clamp_damping", {{{"b.torsion", D_E}}}});
+  const RefinedRecord refined = SimulateRefined(experiment, specimen, Fine());
+  ASSERT_TRUE(refined.record.ok) << refined.record.message;
+  const Eigen::VectorXd angle = refined.record.values.col(0);
+  EXPECT_NEAR(angle[0], 0.5, 1e-9);
+  const CableModel& m = specimen.cable;
+  const double inertia = J + m.rhoJ() * m.length / 3;
+  const double delta = (m.eta_GJ / m.length + D_E) / (2 * inertia);
+  const double Omega = std::sqrt(m.GJ / (m.length * inertia) - delta * delta);
+  // angle = 0.5 exp(-delta t)(cos Omega t + delta/Omega sin Omega t); rhoJ L/3 is good to
+  // (rhoJ L/J)^2.
+  constexpr double kCableInertia = 2e-3;
+  for (Eigen::Index i = 0; i < angle.size(); i += 50) {
+    const double t = experiment.record.t[i];
+    const double expected =
+        0.5 * std::exp(-delta * t) * (std::cos(Omega * t) + delta / Omega * std::sin(Omega * t));
+    EXPECT_NEAR(angle[i], expected, kCableInertia * 0.5) << "t = " << t;
+  }
+}
+
+TEST(ExperimentSimulationTest, VelocityAndAccelerationAreDerivativesOfThePosition) {
+  Experiment experiment = RingDown(0.01, 0.3, 301);
+  const double L = CableSpecimen().cable.length;
+  experiment.channels.push_back(ChannelAt(L, Quantity::kVelocity, 2));
+  experiment.channels.push_back(ChannelAt(L, Quantity::kAcceleration, 2));
+  const SimulatedRecord record = SimulateExperiment(experiment, {CableSpecimen()}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  const double h = experiment.record.t[1] - experiment.record.t[0];
+  const double velocity_scale = record.values.col(1).cwiseAbs().maxCoeff();
+  // Central differences over 1 ms of what has modes up to some 100 Hz.
+  constexpr double kDifference = 0.02;
+  for (int i = 100; i < 300; ++i) {
+    EXPECT_NEAR(record.values(i, 1), (record.values(i + 1, 0) - record.values(i - 1, 0)) / (2 * h),
+                kDifference * velocity_scale);
+  }
+  const double acceleration_scale = record.values.col(2).tail(200).cwiseAbs().maxCoeff();
+  for (int i = 100; i < 300; ++i) {
+    EXPECT_NEAR(record.values(i, 2), (record.values(i + 1, 1) - record.values(i - 1, 1)) / (2 * h),
+                kDifference * acceleration_scale);
+  }
+}
+
+TEST(ExperimentSimulationTest, ASpecimenDoesNotDependOnItsNeighbours) {
+  const Experiment experiment = RingDown(0.02, 0.1, 51);
+  std::vector<Specimen> specimens(6, CableSpecimen());
+  for (std::size_t k = 0; k < specimens.size(); ++k) {
+    specimens[k].cable.EI1 *= 1 + 0.1 * static_cast<double>(k);
+    specimens[k].cable.EI2 = specimens[k].cable.EI1;
+  }
+  const auto all = SimulateExperiment(experiment, specimens, Fine());
+  const auto other =
+      SimulateExperiment(experiment, {specimens[2], specimens[5], specimens[0]}, Fine());
+  ASSERT_TRUE(all[2].ok && other[0].ok);
+  EXPECT_EQ(all[2].values, other[0].values);
+  EXPECT_EQ(all[5].values, other[1].values);
+  EXPECT_EQ(all[0].values, other[2].values);
+}
+
+TEST(ExperimentSimulationTest, QuasiStaticStepsGiveTheForceOfACantilever) {
+  Experiment experiment;
+  experiment.gravity_W.setZero();
+  experiment.a.pose.q = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY());
+  const Specimen specimen = CableSpecimen();
+  const double L = specimen.cable.length;
+  ClampMotion motion;
+  motion.quasi_static = true;
+  for (int step = 0; step < 5; ++step) {
+    motion.t.push_back(step);
+    motion.poses.push_back({Eigen::Vector3d(L, 0, 0.001 * step), experiment.a.pose.q});
+    experiment.record.t.push_back(step);
+  }
+  experiment.b.motion = motion;
+  experiment.b.translation_free = {false, false, true};
+  experiment.b.rotation_free = {true, true, true};
+  experiment.record.quasi_static = true;
+  Channel force = ChannelAt(0, Quantity::kForce, 2);
+  force.clamp = ClampSide::kB;
+  experiment.channels = {force};
+  const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  // F = 3 EI w/L^3, less shear's share 3 EI/(GA L^2), and of second order in w/L.
+  constexpr double kShearAndSize = 1e-3;
+  const double stiffness = 3 * specimen.cable.EI1 / std::pow(L, 3);
+  for (int step = 1; step < 5; ++step)
+    EXPECT_NEAR(record.values(step, 0), stiffness * 0.001 * step,
+                kShearAndSize * stiffness * 0.001 * step);
+}
+
+}  // namespace
+}  // namespace cosserat_cable
