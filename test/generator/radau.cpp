@@ -16,8 +16,9 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 10;
-constexpr double kNewtonTolerance = 1e-3;  // of the error tolerance, so that it adds nothing to it
+constexpr double kNewtonTolerance = 1e-2;  // of the error tolerance, so that it adds nothing to it
 constexpr double kStaleRate = 0.05;        // contraction beyond which factors are renewed
+constexpr int kPatience = 15;              // steps without growth after Newton's method failed
 constexpr double kSafety = 0.9;
 constexpr double kLeastFactor = 0.2;
 constexpr double kMostFactor = 6.0;
@@ -150,6 +151,7 @@ RadauCounts integrateRadau(
   double h = std::min(options.first_step, longest);
   double last_h = h, factorised_h = 0.0, last_error = 1.0;
   bool stale = true;
+  int hold_back = 0;
 
   while (now.t < t1 * (1.0 - 1e-14)) {
     const bool last = now.t + h * (1.0 + 1e-9) >= t1;
@@ -198,6 +200,7 @@ RadauCounts integrateRadau(
     if (!converged) {
       ++counts.rejected;
       h *= 0.5;
+      hold_back = kPatience;
       stale = true;
       continue;
     }
@@ -230,6 +233,10 @@ RadauCounts integrateRadau(
     stages = a;
     last_h = h;
     last_error = std::max(1e-2, error);
+    if (hold_back > 0) {
+      --hold_back;
+      factor = std::min(factor, 1.0);
+    }
     if (factor < kKeepAbove || factor > kKeepBelow || rate > kStaleRate) {
       h = std::min(longest, h * factor);
       stale = true;

@@ -37,7 +37,7 @@ struct Experiment {
 /// Defaults chosen by the convergence tests.
 struct Accuracy {
   Resolution resolution;
-  double tolerance = 1e-6;  ///< of the integrator, relative to the release's distance from rest
+  double tolerance = 1e-7;  ///< of the integrator, relative to the release's distance from rest
 };
 
 /// What an ideal sensor would have recorded.

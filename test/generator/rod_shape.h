@@ -9,9 +9,9 @@ using Points = Eigen::Matrix3Xd;  ///< one column per point along the rod
 
 /// How finely a rod is resolved: Legendre polynomials per strain component and element.
 struct Resolution {
-  int curvature = 10;  ///< of K1, K2, K3
-  int strain = 8;      ///< of Gamma1, Gamma2, Gamma3
-  int nodes = 18;      ///< quadrature nodes per element
+  int curvature = 9;  ///< of K1, K2, K3
+  int strain = 7;     ///< of Gamma1, Gamma2, Gamma3
+  int nodes = 16;     ///< quadrature nodes per element
 };
 
 /// The six strains K1, K2, K3, Gamma1, Gamma2, Gamma3 of a rod as piecewise polynomials of arc
