@@ -1,0 +1,89 @@
+// rig_generator: measurement sets whose truth is known, from a simulation that shares nothing with
+// the package's own.
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <string>
+
+#include "sample_sets.h"
+
+namespace {
+
+using namespace cosserat_cable::generator;
+
+constexpr char kUsage[] =
+    "usage: rig_generator RIG --output DIR [--seed N] [--snr DB] [--lengths N] [--repeats N]\n"
+    "Writes a measurement set with its truth (truth.json) into DIR.\n"
+    "  RIG            random          a random cable: two ring-downs, torsion at 3 or 4 lengths\n"
+    "                 wire            a soft wire, hanging, that swings a little\n"
+    "                 torsion-series  torsion at several lengths\n"
+    "                 torsion-single  torsion at one length\n"
+    "                 six             six records of 3 s\n"
+    "  --seed N       of all that is random (1)\n"
+    "  --snr DB       signal to noise, rms (40)\n"
+    "  --lengths N    of torsion-series (5)\n"
+    "  --repeats N    per length, of torsion-series and torsion-single (3)\n";
+
+int wrong(const std::string& what) {
+  std::fprintf(stderr, "rig_generator: %s\n%s", what.c_str(), kUsage);
+  return 2;
+}
+
+/// Whole text as a number within bounds, or false.
+bool parse(const std::string& text, double low, double high, double* value) {
+  char* end = nullptr;
+  *value = std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0' && *value >= low && *value <= high;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::map<std::string, std::string> options{
+      {"--seed", "1"}, {"--snr", "40"}, {"--lengths", "5"}, {"--repeats", "3"}, {"--output", ""}};
+  if (argc > 1 && std::string(argv[1]) == "--help") {
+    std::fputs(kUsage, stdout);
+    return 0;
+  }
+  if (argc < 2) return wrong("no rig given");
+  for (int i = 2; i < argc; i += 2) {
+    if (options.count(argv[i]) == 0) return wrong(std::string("unknown option ") + argv[i]);
+    if (i + 1 == argc) return wrong(std::string("no value for ") + argv[i]);
+    options[argv[i]] = argv[i + 1];
+  }
+  double seed = 0.0, snr = 0.0, lengths = 0.0, repeats = 0.0;
+  if (!parse(options["--seed"], 0.0, 1e9, &seed)) return wrong("--seed: expected 0 to 1e9");
+  if (!parse(options["--snr"], -20.0, 200.0, &snr)) return wrong("--snr: expected -20 to 200 dB");
+  if (!parse(options["--lengths"], 2.0, 50.0, &lengths))
+    return wrong("--lengths: expected 2 to 50");
+  if (!parse(options["--repeats"], 1.0, 50.0, &repeats))
+    return wrong("--repeats: expected 1 to 50");
+  if (options["--output"].empty()) return wrong("no --output given");
+
+  const std::string rig = argv[1];
+  const auto number = static_cast<std::uint64_t>(seed);
+  const int n_lengths = static_cast<int>(lengths), n_repeats = static_cast<int>(repeats);
+  try {
+    MeasurementSet set;
+    if (rig == "random") {
+      set = randomSet(number, snr);
+    } else if (rig == "wire") {
+      set = wireSet(number, snr);
+    } else if (rig == "torsion-series") {
+      set = torsionSeries(number, snr, n_lengths, n_repeats);
+    } else if (rig == "torsion-single") {
+      set = torsionSeries(number, snr, 1, n_repeats);
+    } else if (rig == "six") {
+      set = sixRecords(number, snr);
+    } else {
+      return wrong("unknown rig " + rig);
+    }
+    writeSet(set, options["--output"]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "rig_generator: %s\n", error.what());
+    return 3;
+  }
+  return 0;
+}

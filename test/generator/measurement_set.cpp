@@ -1,0 +1,210 @@
+#include "measurement_set.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace cosserat_cable::generator {
+namespace {
+
+using Quantity = Channel::Quantity;
+
+// A camera shows a coordinate that moves by less than this part of the others as noise only.
+constexpr double kLeastMotion = 0.1;
+
+std::string number(double value) {
+  char text[40];
+  std::snprintf(text, sizeof(text), "%.17g", value);
+  std::string result = text;
+  // YAML readers take a number without point or exponent for an integer, which is harmless; "1e-05"
+  // without a point is a string to some.
+  const size_t exponent = result.find('e');
+  if (exponent != std::string::npos && result.find('.') == std::string::npos) {
+    result.insert(exponent, ".0");
+  }
+  return result;
+}
+
+std::string list(const Eigen::Ref<const Eigen::VectorXd>& values) {
+  std::string text = "[";
+  for (int i = 0; i < values.size(); ++i) text += (i > 0 ? ", " : "") + number(values[i]);
+  return text + "]";
+}
+
+std::string pose(const FrameMotion& frame) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(frame.R).normalized();
+  Eigen::Matrix<double, 7, 1> values;
+  values << frame.p, q.coeffs();
+  return list(values);
+}
+
+const char* name(Quantity quantity) {
+  switch (quantity) {
+    case Quantity::kPosition:
+      return "position";
+    case Quantity::kVelocity:
+      return "velocity";
+    case Quantity::kAcceleration:
+      return "acceleration";
+    case Quantity::kAngle:
+      return "angle";
+    case Quantity::kRate:
+      return "rate";
+  }
+  throw std::logic_error("unknown quantity");
+}
+
+std::string experimentYaml(const MeasuredExperiment& measured, double set_length) {
+  const Experiment& e = measured.experiment;
+  std::ostringstream out;
+  out << "  - name: " << e.name << "\n    kind: " << e.kind << "\n";
+  if (e.cable.length != set_length) {
+    out << "    specimen: {length: " << number(e.cable.length) << "}\n";
+  }
+  out << "    gravity: " << list(e.gravity) << "\n    a: {pose: " << pose(e.a) << "}\n";
+  if (e.disc) {
+    out << "    b: {disc: {inertia: " << number(e.disc->inertia)
+        << ", mass: " << number(e.disc->mass) << (e.guided ? ", guided: true" : "") << "}}\n";
+  } else {
+    out << "    b: free\n";
+  }
+  if (e.held) {
+    out << "    start: {held: {s: " << number(e.cable.length) << ", position: " << list(*e.held)
+        << "}}\n";
+  } else {
+    out << "    start: {twisted: " << number(e.twisted) << "}\n";
+  }
+  out << "    record: " << e.name << ".csv\n    channels:\n";
+  for (size_t c = 0; c < e.channels.size(); ++c) {
+    const Channel& channel = e.channels[c];
+    out << "      - {column: " << channel.column << ", s: " << number(channel.s)
+        << ", quantity: " << name(channel.quantity);
+    if (channel.quantity < Quantity::kAngle)
+      out << ", axis: "
+          << "xyz"[channel.axis];
+    if (measured.told[c]) out << ", sigma: " << number(measured.sigma[c]);
+    out << "}\n";
+  }
+  return out.str();
+}
+
+std::string setYaml(const MeasurementSet& set) {
+  const CableData& cable = set.truth;
+  std::ostringstream out;
+  out << "format: 1\ncable:\n  length: " << number(cable.length)
+      << "\n  diameter: " << number(cable.diameter) << "\n  mass_per_length: " << number(cable.rhoA)
+      << "\n  EI: " << number(set.EI_guess) << "\n  GJ: " << number(set.GJ_guess)
+      << "\n  eta_EI: null\n  eta_GJ: null\n";
+  if (!cable.masses.empty()) {
+    out << "  masses: [";
+    for (size_t i = 0; i < cable.masses.size(); ++i) {
+      out << (i > 0 ? ", " : "") << "{s: " << number(cable.masses[i].s)
+          << ", mass: " << number(cable.masses[i].mass) << "}";
+    }
+    out << "]\n";
+  }
+  out << "  uncertain: [";
+  for (size_t i = 0; i < set.uncertain.size(); ++i) out << (i > 0 ? ", " : "") << set.uncertain[i];
+  out << "]\nexperiments:\n";
+  for (const MeasuredExperiment& e : set.experiments) out << experimentYaml(e, cable.length);
+  return out.str();
+}
+
+std::string truthJson(const MeasurementSet& set) {
+  std::ostringstream out;
+  out << "{\n  \"format\": 1,\n  \"rig\": \"" << set.rig << "\",\n  \"seed\": " << set.seed
+      << ",\n  \"snr_db\": " << number(set.snr)
+      << ",\n  \"parameters\": {\"EI\": " << number(set.truth.EI)
+      << ", \"eta_EI\": " << number(set.truth.eta_EI) << ", \"GJ\": " << number(set.truth.GJ)
+      << ", \"eta_GJ\": " << number(set.truth.eta_GJ) << ", \"D_E\": " << number(set.D_E)
+      << "},\n  \"sigma\": {";
+  for (size_t i = 0; i < set.experiments.size(); ++i) {
+    const MeasuredExperiment& e = set.experiments[i];
+    out << (i > 0 ? "," : "") << "\n    \"" << e.experiment.name << "\": {";
+    for (size_t c = 0; c < e.experiment.channels.size(); ++c) {
+      out << (c > 0 ? ", " : "") << "\"" << e.experiment.channels[c].column
+          << "\": " << number(e.sigma[c]);
+    }
+    out << "}";
+  }
+  out << "\n  }\n}\n";
+  return out.str();
+}
+
+std::string recordCsv(const MeasuredExperiment& measured) {
+  std::string text = "t";
+  for (const Channel& channel : measured.experiment.channels) text += "," + channel.column;
+  text += "\n";
+  for (int i = 0; i < measured.values.rows(); ++i) {
+    text += number(measured.experiment.times[i]);
+    for (int c = 0; c < measured.values.cols(); ++c) text += "," + number(measured.values(i, c));
+    text += "\n";
+  }
+  return text;
+}
+
+void writeFile(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error("could not write " + path.string());
+}
+
+}  // namespace
+
+std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experiments, double snr,
+                                        Random* random, const Accuracy& accuracy) {
+  std::vector<MeasuredExperiment> result;
+  bool tell = random->chance(0.5);
+  for (const Experiment& experiment : experiments) {
+    const Record record = simulate(experiment, accuracy);
+    const int count = static_cast<int>(experiment.channels.size());
+    Eigen::VectorXd sigma(count);
+    double largest = 0.0;
+    for (int c = 0; c < count; ++c) {
+      sigma[c] = noiseSigma(record.values.col(c), record.rest[c], snr);
+      if (experiment.channels[c].quantity == Quantity::kPosition) {
+        largest = std::max(largest, sigma[c]);
+      }
+    }
+    MeasuredExperiment measured;
+    measured.experiment = experiment;
+    measured.experiment.channels.clear();
+    std::vector<int> kept;
+    for (int c = 0; c < count; ++c) {
+      const bool still = experiment.channels[c].quantity == Quantity::kPosition &&
+                         sigma[c] < kLeastMotion * largest;
+      if (!still) kept.push_back(c);
+    }
+    measured.values.resize(experiment.times.size(), kept.size());
+    measured.sigma.resize(kept.size());
+    for (size_t k = 0; k < kept.size(); ++k) {
+      measured.experiment.channels.push_back(experiment.channels[kept[k]]);
+      measured.values.col(k) = record.values.col(kept[k]);
+      measured.sigma[k] = sigma[kept[k]];
+      measured.told.push_back(tell);
+      tell = !tell;
+      addNoise(measured.sigma[k], random, measured.values.col(k));
+    }
+    result.push_back(measured);
+  }
+  return result;
+}
+
+void writeSet(const MeasurementSet& set, const std::string& folder) {
+  const std::filesystem::path path(folder);
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error) throw std::runtime_error("could not make " + folder + ": " + error.message());
+  writeFile(path / "measurement.yaml", setYaml(set));
+  writeFile(path / "truth.json", truthJson(set));
+  for (const MeasuredExperiment& e : set.experiments) {
+    writeFile(path / (e.experiment.name + ".csv"), recordCsv(e));
+  }
+}
+
+}  // namespace cosserat_cable::generator

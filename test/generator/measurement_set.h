@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "noise.h"
+#include "rigs.h"
+
+namespace cosserat_cable::generator {
+
+/// An experiment with what its sensors showed.
+struct MeasuredExperiment {
+  Experiment experiment;
+  Eigen::MatrixXd values;  ///< noisy, times x channels
+  Eigen::VectorXd sigma;   ///< of each channel's noise
+  std::vector<bool> told;  ///< whether the set says so
+};
+
+/// Experiments, what is said to be known of the cable, and the truth.
+struct MeasurementSet {
+  std::string rig;
+  std::uint64_t seed = 0;
+  double snr = 0.0;  ///< [dB]
+  CableData truth;   ///< length as in the set's `cable`
+  double D_E = 0.0;  ///< [N m s]
+  double EI_guess = 0.0, GJ_guess = 0.0;
+  std::vector<std::string> uncertain;
+  std::vector<MeasuredExperiment> experiments;
+};
+
+/// Simulates the experiments, leaves out position channels that barely move, and adds noise; says
+/// of every second channel how large it is.
+std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experiments, double snr,
+                                        Random* random, const Accuracy& accuracy = {});
+
+/// Writes measurement.yaml, a CSV file per experiment and truth.json into a folder, which is made.
+/// Throws std::runtime_error naming the file that could not be written.
+void writeSet(const MeasurementSet& set, const std::string& folder);
+
+}  // namespace cosserat_cable::generator

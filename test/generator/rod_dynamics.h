@@ -1,0 +1,116 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "radau.h"
+#include "rod.h"
+#include "rod_shape.h"
+
+namespace cosserat_cable::generator {
+
+/// Motion of a section frame {a1, a2, a3} in the world frame.
+struct FrameMotion {
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< [m]
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d v = Eigen::Vector3d::Zero();      ///< [m/s]
+  Eigen::Vector3d w = Eigen::Vector3d::Zero();      ///< [rad/s]
+  Eigen::Vector3d a = Eigen::Vector3d::Zero();      ///< [m/s^2]
+  Eigen::Vector3d alpha = Eigen::Vector3d::Zero();  ///< [rad/s^2]
+};
+using FrameCurve = std::function<FrameMotion(double t)>;
+
+/// A rigid body at end b, its centre of mass on the axis there.
+struct Disc {
+  double inertia = 0.0;  ///< about a3 [kg m^2]; half of it about a1 and a2
+  double mass = 0.0;     ///< [kg]
+  double dashpot = 0.0;  ///< D_E: a moment -D_E times the spin about a3 [N m s]
+};
+
+/// What holds the section at end b: components in the frame of `pose`. Springs and dashpots so
+/// stiff (kHoldStiffness times the rod's own) that they give way by less than any data show.
+struct EndHold {
+  FrameCurve pose;
+  std::array<bool, 3> position{true, true, true};
+  std::array<bool, 3> rotation{true, true, true};
+};
+
+/// Where and how a material point moves.
+struct PointMotion {
+  Eigen::Vector3d position, velocity, acceleration;  ///< [m], [m/s], [m/s^2]
+};
+
+/// Equations of motion of a rod clamped at s = 0, in its strain coordinates: internal forces
+/// follow from the inertia of all that lies beyond a section, and are weighed against the section
+/// laws in the sense of Galerkin (d'Alembert's principle in minimal coordinates).
+class RodDynamics : public SecondOrderSystem {
+ public:
+  /// @param breaks further arc lengths [m] at which elements end, besides those of point masses.
+  RodDynamics(const Rod& rod, const Resolution& resolution, const std::vector<double>& breaks = {});
+
+  // What surrounds the rod; set before use.
+  Eigen::Vector3d gravity{0.0, 0.0, -9.81};  ///< [m/s^2]
+  FrameCurve clamp = [](double) { return FrameMotion(); };
+  Disc disc;
+  std::vector<EndHold> holds;  ///< none or one
+  /// Constant forces [N] at arc lengths at which elements end.
+  std::vector<std::pair<double, Eigen::Vector3d>> forces;
+  double end_torque = 0.0;  ///< about a3 at end b [N m]
+
+  const Rod& rod() const { return rod_; }
+  const RodShape& shape() const { return shape_; }
+
+  int size() const override { return shape_.size(); }
+  Eigen::VectorXd residual(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                           const Eigen::VectorXd& a) override;
+  void linearise(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                 const Eigen::VectorXd& a, Eigen::MatrixXd* M, Eigen::MatrixXd* D,
+                 Eigen::MatrixXd* K) override;
+  Eigen::VectorXd scale() const override;
+
+  /// Motion of the point at the arc length that `station` = shape().integralTo(s) stands for.
+  PointMotion pointMotion(const MotionState& state, const Eigen::RowVectorXd& station) const;
+  /// Integral of twist from 0 to there [rad] for coordinates q, its rate [rad/s] for velocities.
+  double twist(const Eigen::VectorXd& q, const Eigen::RowVectorXd& station) const;
+  /// Force and moment [N, N m] by the clamp on the rod at s = 0, world axes.
+  std::pair<Eigen::Vector3d, Eigen::Vector3d> clampLoad(const MotionState& state);
+
+  /// Kinetic, elastic and gravitational energy [J] and the power lost [W].
+  struct Energy {
+    double kinetic = 0.0, elastic = 0.0, potential = 0.0, loss = 0.0;
+    double total() const { return kinetic + elastic + potential; }
+  };
+  Energy energy(const MotionState& state) const;
+
+ private:
+  struct Kinematics {
+    Eigen::Matrix3Xd frames;  ///< of all points, world
+    Points K, Kd, G, Gd;      ///< at nodes, section components
+    Points rp;                ///< r' at nodes, world
+    Points v_s, a_s;          ///< derivatives of velocity and acceleration by s at nodes
+    Points w, alpha;          ///< angular velocity and acceleration at all points
+    Points a;                 ///< acceleration at all points
+  };
+  struct Internal {
+    Points n, m;                    ///< at nodes, world
+    Eigen::Vector3d force, moment;  ///< at s = 0
+  };
+  Kinematics kinematics(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
+                        const Eigen::VectorXd& a) const;
+  Internal internal(double t, const Kinematics& k) const;
+  void holdLoad(double t, const Kinematics& k, const EndHold& hold, Eigen::Vector3d* force,
+                Eigen::Vector3d* moment) const;
+  double holdForceStiffness() const;
+  double holdMomentStiffness() const;
+  double holdTime() const;
+
+  Rod rod_;
+  RodShape shape_;
+  std::vector<double> point_mass_;  ///< at element ends [kg]
+};
+
+}  // namespace cosserat_cable::generator
