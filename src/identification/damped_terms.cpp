@@ -17,7 +17,7 @@ constexpr double kSlowestCreep = 0.1;
 // A growing oscillation is not stopped at once, so that the estimate of a small damping has no
 // bias.
 constexpr double kFastestGrowth = 3;
-constexpr int kMostIterations = 60;
+constexpr int kMostIterations = 40;
 
 // (1 - exp(-2 d t))/(2 d), and its derivative by d.
 struct ShiftPhase {
@@ -50,28 +50,75 @@ void Unpack(const double* x, double duration, std::vector<DampedTerm>* terms) {
   }
 }
 
+// What columns and slopes have in common, over the samples.
+struct Wave {
+  Eigen::ArrayXd cosine, sine;        // with the decay; a creep has its decay in `cosine` alone
+  Eigen::ArrayXd phase, phase_slope;  // of the shift, per unit of it, and by delta; where it shifts
+};
+
+Wave MakeWave(const Eigen::VectorXd& t, const DampedTerm& term) {
+  const Eigen::Index n = t.size();
+  Wave wave;
+  wave.cosine = (-term.delta * t.array()).exp();
+  if (!term.oscillates) return wave;
+  if (term.shifts) {
+    wave.phase.resize(n);
+    wave.phase_slope.resize(n);
+  }
+  wave.sine.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    double psi = term.omega * t[i];
+    if (term.shifts) {
+      const ShiftPhase phase = PhaseOfShift(term.delta, t[i]);
+      wave.phase[i] = phase.value;
+      wave.phase_slope[i] = phase.slope;
+      psi += term.shift * phase.value;
+    }
+    wave.sine[i] = wave.cosine[i] * std::sin(psi);
+    wave.cosine[i] *= std::cos(psi);
+  }
+  return wave;
+}
+
+std::vector<Wave> MakeWaves(const Eigen::VectorXd& t, const std::vector<DampedTerm>& terms) {
+  std::vector<Wave> waves;
+  for (const DampedTerm& term : terms) waves.push_back(MakeWave(t, term));
+  return waves;
+}
+
+Eigen::MatrixXd WaveColumns(Eigen::Index n, const std::vector<Wave>& waves) {
+  Eigen::Index count = 1;
+  for (const Wave& wave : waves) count += wave.sine.size() > 0 ? 2 : 1;
+  Eigen::MatrixXd columns(n, count);
+  columns.col(0).setOnes();
+  Eigen::Index column = 1;
+  for (const Wave& wave : waves) {
+    columns.col(column++) = wave.cosine;
+    if (wave.sine.size() > 0) columns.col(column++) = wave.sine;
+  }
+  return columns;
+}
+
 // Derivatives of the fit by the nonlinear parameters at fixed amplitudes.
-Eigen::MatrixXd TermSlopes(const Eigen::VectorXd& t, const std::vector<DampedTerm>& terms,
-                           const Eigen::VectorXd& amplitudes, int count) {
+Eigen::MatrixXd WaveSlopes(const Eigen::VectorXd& t, const std::vector<DampedTerm>& terms,
+                           const std::vector<Wave>& waves, const Eigen::VectorXd& amplitudes,
+                           int count) {
   Eigen::MatrixXd slopes(t.size(), count);
   int column = 0, linear = 1;
-  for (const DampedTerm& term : terms) {
-    for (Eigen::Index i = 0; i < t.size(); ++i) {
-      const double decay = std::exp(-term.delta * t[i]);
-      if (!term.oscillates) {
-        slopes(i, column) = -t[i] * decay * amplitudes[linear];
-        continue;
-      }
-      const ShiftPhase phase = PhaseOfShift(term.delta, t[i]);
-      const double psi = term.omega * t[i] + (term.shifts ? term.shift * phase.value : 0);
-      const double cosine = std::cos(psi), sine = std::sin(psi);
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    const DampedTerm& term = terms[k];
+    const Wave& wave = waves[k];
+    if (!term.oscillates) {
+      slopes.col(column) = -t.array() * wave.cosine * amplitudes[linear];
+    } else {
       const double c = amplitudes[linear], s = amplitudes[linear + 1];
-      const double value = decay * (c * cosine + s * sine);
-      const double quadrature = decay * (s * cosine - c * sine);
-      slopes(i, column) = t[i] * quadrature;
-      slopes(i, column + 1) =
-          -t[i] * value + (term.shifts ? term.shift * phase.slope * quadrature : 0);
-      if (term.shifts) slopes(i, column + 2) = phase.value * quadrature;
+      const Eigen::ArrayXd quadrature = s * wave.cosine - c * wave.sine;
+      slopes.col(column) = t.array() * quadrature;
+      slopes.col(column + 1) = -t.array() * (c * wave.cosine + s * wave.sine);
+      if (term.shifts) {
+        slopes.col(column + 1).array() += term.shift * wave.phase_slope * quadrature;
+        slopes.col(column + 2) = wave.phase * quadrature;
+      }
     }
     column += term.nonlinear();
     linear += term.linear();
@@ -96,7 +143,8 @@ Projection Project(const Eigen::VectorXd& t, const Eigen::VectorXd& white_y,
                    const std::vector<DampedTerm>& terms, const NoiseCorrelation& noise,
                    bool with_jacobian) {
   Projection p;
-  Eigen::MatrixXd columns = TermColumns(t, terms);
+  const std::vector<Wave> waves = MakeWaves(t, terms);
+  Eigen::MatrixXd columns = WaveColumns(t.size(), waves);
   if (!columns.allFinite()) return p;
   noise.Whiten(columns);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
@@ -111,7 +159,7 @@ Projection Project(const Eigen::VectorXd& t, const Eigen::VectorXd& white_y,
   out_of_span(p.white_residual);
   if (!p.amplitudes.allFinite()) return p;
   if (with_jacobian) {
-    p.jacobian = -TermSlopes(t, terms, p.amplitudes, Count(terms));
+    p.jacobian = -WaveSlopes(t, terms, waves, p.amplitudes, Count(terms));
     noise.Whiten(p.jacobian);
     out_of_span(p.jacobian);
     if (!p.jacobian.allFinite()) return p;
@@ -194,26 +242,16 @@ double NoiseCorrelation::LogDeterminant() const {
 }
 
 Eigen::MatrixXd TermColumns(const Eigen::VectorXd& t, const std::vector<DampedTerm>& terms) {
-  int count = 1;
-  for (const DampedTerm& term : terms) count += term.linear();
-  Eigen::MatrixXd columns(t.size(), count);
-  columns.col(0).setOnes();
-  int column = 1;
-  for (const DampedTerm& term : terms) {
-    for (Eigen::Index i = 0; i < t.size(); ++i) {
-      const double decay = std::exp(-term.delta * t[i]);
-      if (!term.oscillates) {
-        columns(i, column) = decay;
-        continue;
-      }
-      double psi = term.omega * t[i];
-      if (term.shifts) psi += term.shift * PhaseOfShift(term.delta, t[i]).value;
-      columns(i, column) = decay * std::cos(psi);
-      columns(i, column + 1) = decay * std::sin(psi);
-    }
-    column += term.linear();
-  }
-  return columns;
+  return WaveColumns(t.size(), MakeWaves(t, terms));
+}
+
+Eigen::MatrixXd FitSlopes(const Eigen::VectorXd& t, const TermsFit& fit) {
+  const std::vector<Wave> waves = MakeWaves(t, fit.terms);
+  const Eigen::MatrixXd columns = WaveColumns(t.size(), waves);
+  const int count = Count(fit.terms);
+  Eigen::MatrixXd slopes(t.size(), columns.cols() + count);
+  slopes << columns, WaveSlopes(t, fit.terms, waves, fit.amplitudes, count);
+  return slopes;
 }
 
 TermsFit FitTerms(const Eigen::VectorXd& t, const Eigen::VectorXd& y,
@@ -232,8 +270,8 @@ TermsFit FitTerms(const Eigen::VectorXd& t, const Eigen::VectorXd& y,
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_QR;
     options.max_num_iterations = kMostIterations;
-    options.function_tolerance = 1e-12;
-    options.parameter_tolerance = 1e-11;
+    options.function_tolerance = 1e-10;
+    options.parameter_tolerance = 1e-9;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

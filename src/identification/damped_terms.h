@@ -54,4 +54,8 @@ struct TermsFit {
 TermsFit FitTerms(const Eigen::VectorXd& t, const Eigen::VectorXd& y,
                   const std::vector<DampedTerm>& start, const NoiseCorrelation& noise);
 
+/// Derivatives of the fit by all that it adjusts: amplitudes, then (omega, delta, shift) of each
+/// term.
+Eigen::MatrixXd FitSlopes(const Eigen::VectorXd& t, const TermsFit& fit);
+
 }  // namespace cosserat_cable

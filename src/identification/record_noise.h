@@ -15,22 +15,31 @@ struct CorrelationFit {
 };
 
 /// White noise, or, where that is clearly likelier, noise whose correlation falls exponentially
-/// over time, at these times.
-CorrelationFit FitCorrelation(const Eigen::VectorXd& t, const Eigen::VectorXd& residual);
+/// over time, at these times. `slopes`: derivatives of the fit that left this residual by what it
+/// adjusted, whose part of the noise is then counted (the restricted likelihood); may be empty.
+CorrelationFit FitCorrelation(const Eigen::VectorXd& t, const Eigen::VectorXd& residual,
+                              const Eigen::MatrixXd& slopes = Eigen::MatrixXd());
 
 struct Periodogram {
   double step = 0;        ///< [rad/s] from one frequency to the next, the first being half of that
   Eigen::VectorXd power;  ///< over the mean of white noise: exponentially distributed, mean 1
 
   double omega(Eigen::Index k) const { return (static_cast<double>(k) + 0.5) * step; }
-  /// Index of its largest.
-  Eigen::Index Peak() const;
-  /// Whether white noise has a peak as high as this in one record of a hundred.
-  bool PeakIsSignificant() const;
 };
 
 /// Of a residual at uneven times, up to half the mean sampling rate; long ones from their first
-/// 8,000 samples.
-Periodogram MakePeriodogram(const Eigen::VectorXd& t, const Eigen::VectorXd& residual);
+/// 8,000 samples. What has decayed counts less: samples are weighted with exp(-decay t) [1/s].
+Periodogram MakePeriodogram(const Eigen::VectorXd& t, const Eigen::VectorXd& residual,
+                            double decay = 0);
+
+struct Peak {
+  double omega = 0;  ///< [rad/s]
+  double step = 0;   ///< [rad/s] of the periodogram
+  double power = 0;
+  bool significant = false;  ///< whether white noise has one as high in less than 1 of 100 records
+};
+
+/// The highest of periodograms with several decays.
+Peak HighestPeak(const Eigen::VectorXd& t, const Eigen::VectorXd& residual);
 
 }  // namespace cosserat_cable

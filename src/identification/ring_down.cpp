@@ -19,6 +19,8 @@ constexpr Eigen::Index kFewestSamples = 16;
 constexpr std::size_t kMostTerms = 10;
 // Of the information criterion (BIC), for one more term: odds of 150 to 1.
 constexpr double kDecisive = 10;
+// Share of what the criterion asks for that a term's start must bring to be tried.
+constexpr double kWorthTrying = 0.4;
 // Decay rates and creep rates to start from, times the record's duration.
 constexpr double kDecays[] = {0, 1, 3, 8, 20, 60};
 constexpr double kCreeps[] = {0.3, 1, 3, 10, 30, 100};
@@ -49,9 +51,10 @@ int Parameters(const std::vector<DampedTerm>& terms) {
 class Growth {
  public:
   Growth(const Eigen::VectorXd& t, const Eigen::VectorXd& y) : t_(t), y_(y) {
-    best_ = Fit({});
+    best_ = Fit({}, CorrelationFit());
     while (best_.fit.terms.size() < kMostTerms && Grow()) {
     }
+    Refine();
   }
 
   const Candidate& best() const { return best_; }
@@ -59,17 +62,8 @@ class Growth {
  private:
   double duration() const { return t_[t_.size() - 1]; }
 
-  // Noise that is nearly a random walk takes slow terms for its own, and cannot leave that again:
-  // the fit starts from white noise as well.
-  Candidate Fit(const std::vector<DampedTerm>& start) const {
-    Candidate white = FitFrom(start, CorrelationFit());
-    if (best_.noise.noise.white()) return white;
-    Candidate correlated = FitFrom(start, best_.noise);
-    return correlated.criterion < white.criterion ? correlated : white;
-  }
-
   // Terms and the noise's correlation, in turns: either changes the other a little.
-  Candidate FitFrom(const std::vector<DampedTerm>& start, const CorrelationFit& noise) const {
+  Candidate Fit(const std::vector<DampedTerm>& start, const CorrelationFit& noise) const {
     Candidate c;
     c.noise = noise;
     c.fit = FitTerms(t_, y_, start, c.noise.noise);
@@ -138,43 +132,67 @@ class Growth {
     return best;
   }
 
-  void Try(std::vector<DampedTerm> terms, const DampedTerm& added, Candidate* winner) const {
+  // Where the start takes nowhere near enough away, no search from it would.
+  bool IsHopeless(const DampedTerm& term, const CorrelationFit& noise) const {
+    Eigen::VectorXd residual = best_.fit.residual;
+    noise.noise.Whiten(residual);
+    const double n = static_cast<double>(t_.size());
+    const double needed = kDecisive + (term.linear() + term.nonlinear()) * std::log(n);
+    return Gain(term, noise.noise) * n < kWorthTrying * needed * residual.squaredNorm();
+  }
+
+  void Try(std::vector<DampedTerm> terms, const DampedTerm& added, const CorrelationFit& noise,
+           Candidate* winner) const {
+    if (IsHopeless(added, noise)) return;
     terms.push_back(added);
-    Candidate candidate = Fit(terms);
+    Candidate candidate = Fit(terms, noise);
     if (candidate.criterion < winner->criterion) *winner = std::move(candidate);
   }
 
   // A frequency that moves with the amplitude leaves power beside itself, as a second mode does.
-  void TryShift(double omega, Candidate* winner) const {
+  void TryShift(double omega, const CorrelationFit& noise, Candidate* winner) const {
     for (std::size_t k = 0; k < best_.fit.terms.size(); ++k) {
       const DampedTerm& term = best_.fit.terms[k];
       const double width = 3 * term.delta + 4 * kPi / duration();
       if (!term.oscillates || term.shifts || std::abs(term.omega - omega) > width) continue;
       std::vector<DampedTerm> terms = best_.fit.terms;
       terms[k].shifts = true;
-      Candidate candidate = Fit(terms);
+      Candidate candidate = Fit(terms, noise);
       if (candidate.criterion < winner->criterion) *winner = std::move(candidate);
     }
   }
 
+  void TryNear(const Peak& peak, const CorrelationFit& noise, Candidate* winner) const {
+    Try(best_.fit.terms, StartNear(peak.omega, peak.step, noise.noise), noise, winner);
+    Try(best_.fit.terms, StartCreep(noise.noise), noise, winner);
+    TryShift(peak.omega, noise, winner);
+  }
+
   bool Grow() {
-    const Periodogram white = MakePeriodogram(t_, best_.fit.white_residual);
-    if (!best_.fit.terms.empty() && !white.PeakIsSignificant()) return false;
-    const std::vector<DampedTerm>& terms = best_.fit.terms;
+    const Peak white = HighestPeak(t_, best_.fit.white_residual);
+    const bool is_white = best_.noise.noise.white();
+    // Correlated noise may be a slow term that is not found yet: only trying tells.
+    if (is_white && !best_.fit.terms.empty() && !white.significant) return false;
     Candidate winner;
-    const double at_white = white.omega(white.Peak());
-    Try(terms, StartNear(at_white, white.step, best_.noise.noise), &winner);
-    TryShift(at_white, &winner);
-    if (!best_.noise.noise.white()) {
-      const Periodogram raw = MakePeriodogram(t_, best_.fit.residual);
-      const double at_raw = raw.omega(raw.Peak());
-      Try(terms, StartNear(at_raw, raw.step, {}), &winner);
-      TryShift(at_raw, &winner);
+    TryNear(white, best_.noise, &winner);
+    if (!is_white) {
+      // Noise that is nearly a random walk takes slow terms for its own, and cannot leave that
+      // again: what is added to it starts from white noise as well.
+      TryNear(HighestPeak(t_, best_.fit.residual), CorrelationFit(), &winner);
     }
-    Try(terms, StartCreep(best_.noise.noise), &winner);
     if (!(winner.criterion < best_.criterion - kDecisive)) return false;
     best_ = std::move(winner);
     return true;
+  }
+
+  // The fit takes part of slow noise for signal: its correlation anew, with that counted.
+  void Refine() {
+    if (best_.noise.noise.white() || !best_.fit.converged) return;
+    const CorrelationFit noise = FitCorrelation(t_, best_.fit.residual, FitSlopes(t_, best_.fit));
+    const TermsFit fit = FitTerms(t_, y_, best_.fit.terms, noise.noise);
+    if (!fit.converged) return;
+    best_.fit = fit;
+    best_.noise = noise;
   }
 
   const Eigen::VectorXd& t_;
@@ -307,8 +325,9 @@ RingDownFit FitRingDown(const std::vector<double>& t, const Eigen::VectorXd& y,
   }
   result.offset += mean;
   result.correlation_time = best.noise.time;
-  result.residual_peak = residual.power[residual.Peak()];
-  result.residual_is_noise = !residual.PeakIsSignificant();
+  const Peak peak = HighestPeak(times, best.fit.white_residual);
+  result.residual_peak = peak.power;
+  result.residual_is_noise = !peak.significant;
   result.fit = y - best.fit.residual;
   AddMessages(result, kPi * (n - 1) / duration, &result.messages);
   return result;

@@ -145,7 +145,7 @@ class RingDownTrials : public ::testing::TestWithParam<Case> {};
 
 TEST_P(RingDownTrials, NearTheBoundAndCovered) {
   const Case& c = GetParam();
-  const std::vector<double> t = c.uneven ? UnevenTimes(2, 200) : EvenTimes(2, 200);
+  const std::vector<double> t = c.uneven ? UnevenTimes(2, 100) : EvenTimes(2, 100);
   const double amplitude = std::hypot(c.modes[0].cosine, c.modes[0].sine);
   const Score score = Judge(t, c.modes, amplitude * std::pow(10, -c.decibels / 20), c.rho);
   RecordProperty("omega_ratio", std::to_string(score.omega_ratio));
@@ -165,7 +165,7 @@ TEST_P(RingDownTrials, NearTheBoundAndCovered) {
 }
 
 const std::vector<Swing> kOne = {{30, 2, 1, 0.3}};
-const std::vector<Swing> kThree = {{30, 1.5, 1, 0.3}, {188, 9, 0.2, -0.1}, {420, 14, 0.05, 0.1}};
+const std::vector<Swing> kThree = {{30, 1.5, 1, 0.3}, {110, 6, 0.2, -0.1}, {220, 9, 0.05, 0.1}};
 const std::vector<Swing> kBeating = {{40, 1, 1, 0}, {42.5, 1.1, 0.7, 0.4}};
 const std::vector<Swing> kHeavy = {{28.62, 9, 1, 0.2}};  // damping ratio 0.3
 
@@ -190,7 +190,7 @@ TEST(RingDown, RefusesNoiseAlone) {
     std::mt19937 random(5);
     int passed = 0;
     for (int trial = 0; trial < kTrials; ++trial) {
-      const std::vector<double> t = EvenTimes(2, 200);
+      const std::vector<double> t = EvenTimes(2, 100);
       const Eigen::VectorXd noise = Noise(static_cast<Eigen::Index>(t.size()), rho, &random);
       const RingDownFit fit = FitRingDown(t, noise);
       if (fit.refused.empty()) ++passed;
