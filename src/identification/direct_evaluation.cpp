@@ -135,7 +135,7 @@ bool Combine(Seen* seen) {
   ring.delta = delta_mean.estimate[0];
   ring.delta_sd = delta_mean.sd(0);
   ring.undamped = std::hypot(ring.omega, ring.delta);  // (11)
-  if (omega_mean.scatter > 0) {
+  if (omega_mean.scatters) {
     ring.messages.push_back("its channels differ in frequency by " +
                             FormatRounded(100 * omega_mean.scatter / ring.omega, 2) +
                             " %, more than their noise explains");
@@ -205,6 +205,7 @@ DirectValue ValueOf(const WeightedLine& line, Eigen::Index k, double unit) {
   value.high = value.value + line.quantile * value.sd;
   value.count = line.freedom + static_cast<int>(line.estimate.size());
   value.scatter = line.scatter * unit;
+  value.scatters = line.scatters;
   return value;
 }
 

@@ -6,11 +6,8 @@ namespace {
 using nlohmann::json;
 
 json ValueJson(const DirectValue& v) {
-  return {{"value", v.value},
-          {"sd", v.sd},
-          {"interval", {v.low, v.high}},
-          {"count", v.count},
-          {"scatter", v.scatter}};
+  return {{"value", v.value}, {"sd", v.sd},           {"interval", {v.low, v.high}},
+          {"count", v.count}, {"scatter", v.scatter}, {"scatters", v.scatters}};
 }
 
 json RingJson(const DirectRingDown& ring) {

@@ -17,9 +17,9 @@ struct DirectValue {
   double value = 0, sd = 0;
   double low = 0, high = 0;  ///< 95 % interval
   int count = 0;             ///< of ring-downs in it
-  /// What they scatter beyond their standard errors, as a standard deviation; then `sd` has it
-  /// in it. 0 where they do not.
+  /// What they scatter beyond their standard errors, as a standard deviation; `sd` has it in it.
   double scatter = 0;
+  bool scatters = false;  ///< whether that is more than chance gives (chi-square, 95 %)
 };
 
 /// Why a value of the direct evaluation is off, and by how much for this rig.
