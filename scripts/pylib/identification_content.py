@@ -13,14 +13,16 @@ UNITS = {'EI': 'N m^2', 'EI1': 'N m^2', 'EI2': 'N m^2', 'GJ': 'N m^2', 'EA': 'N'
          'eta_EA': 'N s', 'eta_GA': 'N s', 'D_E': 'N m s', 'length': 'm', 'mass_per_length': 'kg/m'}
 
 
-def number(value, sd=0.0, extra=0):
+def number(value, sd=0.0):
     """As many digits as the standard deviation leaves meaning to."""
     if value is None:
         return '-'
     digits = 4
     if sd and value and math.isfinite(sd) and math.isfinite(value):
-        digits = min(8, max(2, math.ceil(math.log10(abs(value) / sd)) + 2))
-    return f'{value:.{digits + extra}g}'
+        digits = min(8, max(2, math.floor(math.log10(abs(value) / sd)) + 2))
+    if value and not 1e-3 <= abs(value) < 1e5:
+        return f'{value:.{digits - 1}e}'
+    return f'{value:#.{digits}g}'.rstrip('.') if sd else f'{value:.{digits}g}'
 
 
 def percent(share):

@@ -46,7 +46,7 @@ def _draw_record(axes, x, measured, fit, channel, quasi_static):
               label='measured')
     axes.plot(x, fit, color=FIT, linewidth=0.9, label='fit')
     axes.set_ylabel(f"{channel['column']}\n{channel.get('quantity', '')} [{channel.get('unit', '')}]")
-    axes.legend(frameon=False, loc='upper right', ncol=2)
+    axes.legend(frameon=False, loc='upper left' if quasi_static else 'upper right', ncol=2)
 
 
 def _draw_residual(axes, x, residual, channel, quasi_static):
@@ -167,7 +167,8 @@ def profiles(data, intervals):
         return None
     across = min(3, len(found))
     rows = -(-len(found) // across)
-    figure, grid = plt.subplots(rows, across, squeeze=False, figsize=(WIDTH, 0.4 + 2.3 * rows))
+    figure, grid = plt.subplots(rows, across, squeeze=False,
+                                figsize=(max(across, 1.6) * WIDTH / 3, 0.4 + 2.3 * rows))
     for axes in grid.flat[len(found):]:
         axes.set_axis_off()
     for axes, (name, profile) in zip(grid.flat, found.items()):

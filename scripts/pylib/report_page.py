@@ -125,7 +125,10 @@ class Pages:
 
     def figure(self, item):
         self.flush()
-        self.pdf.savefig(item.figure)
+        caption = item.figure.text(0.01, -0.02, textwrap.fill(item.caption, CHARACTERS), va='top',
+                                   fontsize=9, color='0.35', parse_math=False)
+        self.pdf.savefig(item.figure, bbox_inches='tight', pad_inches=0.4)
+        caption.remove()
 
     def add(self, item):
         if isinstance(item, Heading):
