@@ -19,6 +19,9 @@ constexpr Eigen::Index kFewestSamples = 16;
 constexpr std::size_t kMostTerms = 10;
 // Of the information criterion (BIC), for one more term: odds of 150 to 1.
 constexpr double kDecisive = 10;
+// Of the criterion, by which a first fit may be worse than the best so far: turns of fit and
+// correlation bring less.
+constexpr double kLost = 30;
 // Share of what the criterion asks for that a term's start must bring to be tried.
 constexpr double kWorthTrying = 0.4;
 // Decay rates and creep rates to start from, times the record's duration.
@@ -66,15 +69,19 @@ class Growth {
   Candidate Fit(const std::vector<DampedTerm>& start, const CorrelationFit& noise) const {
     Candidate c;
     c.noise = noise;
+    const double n = static_cast<double>(t_.size());
     c.fit = FitTerms(t_, y_, start, c.noise.noise);
     for (int turn = 0; turn < 3 && c.fit.converged; ++turn) {
       const double before = c.noise.time;
       c.noise = FitCorrelation(t_, c.fit.residual);
+      if (c.noise.deviance + (Parameters(start) + c.noise.parameters) * std::log(n) >
+          best_.criterion + kLost) {
+        return c;
+      }
       if (c.noise.time == 0 && before == 0) break;
       c.fit = FitTerms(t_, y_, c.fit.terms, c.noise.noise);
       if (std::abs(c.noise.time - before) < 0.02 * c.noise.time) break;
     }
-    const double n = static_cast<double>(t_.size());
     const double parameters = Parameters(start) + c.noise.parameters;
     if (c.fit.converged && parameters + 2 < n) {
       c.criterion = n * std::log(std::max(c.fit.sum_of_squares / n, 1e-300)) +

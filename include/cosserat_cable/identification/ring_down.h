@@ -37,7 +37,7 @@ struct RingDownCreep {
 };
 
 struct RingDownFit {
-  std::string refused;              ///< why there is no result; then all below but `fault` is empty
+  std::string refused;              ///< why there is no result; then all below is empty
   std::vector<RingDownMode> modes;  ///< the strongest first; at least one
   std::vector<RingDownCreep> creep;
   double offset = 0;
