@@ -28,6 +28,23 @@ int main(int argc, char** argv) {
                "take the loss D_E at a disc for zero instead of estimating it");
   app.add_flag("!--no-profiles", options.profiles,
                "leave out the profiles of the likelihood: intervals from the curvature alone");
+  app.add_flag("!--no-direct", options.direct,
+               "leave out the evaluation from frequencies and decay rates alone");
+  auto* plan =
+      app.add_flag("--plan", options.plan, "say what to measure next: lengths, disc, repeats");
+  app.add_option("--plan-for", options.plan_options.target,
+                 "the parameter that is to be known better; default: the one known worst")
+      ->needs(plan);
+  app.add_option("--plan-accuracy", options.plan_options.accuracy,
+                 "half of its 95 % interval, relative")
+      ->needs(plan)
+      ->capture_default_str();
+  app.add_option("--plan-longest", options.plan_options.longest,
+                 "the longest specimen that there is room for [m]; default: the set's longest")
+      ->needs(plan);
+  app.add_option("--plan-shortest", options.plan_options.shortest,
+                 "the shortest [m]; default: the set's shortest")
+      ->needs(plan);
   app.add_flag("!--no-report", options.report, "leave out report.html");
   app.add_flag("--pdf", options.pdf, "write report.pdf too");
   app.add_option("--json", options.json, "another file for the numbers of identification.json");

@@ -1,7 +1,10 @@
 #include "cosserat_cable/identification/direct_evaluation.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "cosserat_cable/identification/ring_down.h"
 #include "cosserat_cable/input/number_text.h"
@@ -293,10 +296,22 @@ void AddCritical(const MeasurementSet& set, DirectEvaluation* out) {
 }  // namespace
 
 DirectEvaluation EvaluateDirectly(const MeasurementSet& set) {
+  // Each by itself, side by side; put together in the order of the set.
+  std::vector<DirectEvaluation> each(set.experiments.size());
+  tbb::parallel_for(std::size_t{0}, each.size(), [&](std::size_t k) {
+    const Experiment& e = set.experiments[k];
+    if (IsBending(e)) EvaluateBending(set, e, &each[k]);
+    if (IsTorsion(e)) EvaluateTorsion(set, e, &each[k]);
+  });
   DirectEvaluation out;
-  for (const Experiment& e : set.experiments) {
-    if (IsBending(e)) EvaluateBending(set, e, &out);
-    if (IsTorsion(e)) EvaluateTorsion(set, e, &out);
+  for (DirectEvaluation& one : each) {
+    const auto append = [](auto& to, auto& from) {
+      to.insert(to.end(), std::make_move_iterator(from.begin()),
+                std::make_move_iterator(from.end()));
+    };
+    append(out.bending, one.bending);
+    append(out.torsion, one.torsion);
+    append(out.messages, one.messages);
   }
   const std::vector<DirectRingDown> bending = Used(out.bending), torsion = Used(out.torsion);
   if (!bending.empty()) {

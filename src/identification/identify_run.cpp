@@ -14,7 +14,9 @@
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
 #include "cosserat_cable/console/progress.h"
+#include "cosserat_cable/identification/direct_evaluation.h"
 #include "cosserat_cable/identification/estimation.h"
+#include "plan_answer.h"
 
 namespace cosserat_cable {
 namespace {
@@ -57,13 +59,23 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   estimation_options.unknowns = options.unknowns;
   estimation_options.profiles = options.profiles;
   Estimation estimation;
+  DirectEvaluation direct;
+  Plan plan;
   {
     Progress progress(100, "%");
     estimation_options.progress = [&](const std::string& what, double part) {
       progress.Update(100 * part, what);
       return !Interrupted();
     };
+    if (options.direct) {
+      progress.Update(0, "frequencies and decay rates");
+      direct = EvaluateDirectly(set);
+      for (const auto& [name, value] : direct.values)
+        estimation_options.guesses.push_back({name, value.value});
+    }
     estimation = Estimate(set, estimation_options, &problems);
+    if (options.plan && estimation.ok && !Interrupted())
+      plan = MakePlan(set, estimation, options.plan_options, estimation_options.progress);
   }
   if (!problems.empty()) return refuse();
   if (!estimation.ok) {
@@ -73,7 +85,9 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   }
   for (const Problem& warning : warnings.all()) estimation.warnings.push_back(warning.ToString());
 
-  const nlohmann::json answer = AnswerJson(set, estimation);
+  nlohmann::json answer = AnswerJson(set, estimation);
+  if (options.direct) answer["direct"] = ToJson(direct);
+  if (options.plan) answer["plan"] = PlanJson(plan);
   try {
     const fs::path folder(options.output);
     fs::create_directories(folder / "fit");
@@ -88,6 +102,7 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
     return kExitFileTrouble;
   }
   std::cout << AnswerTable(estimation);
+  if (options.plan) std::cout << PlanTable(plan);
   for (const std::string& warning : estimation.warnings)
     std::cerr << "warning: " << warning << "\n";
   std::printf("identified in %.1f s\n", estimation.seconds);

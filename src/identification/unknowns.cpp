@@ -49,6 +49,12 @@ Unknowns::Unknowns(const MeasurementSet& set, const UnknownOptions& options, Pro
     names.clear();
     for (const UncertainKey& key : *set_.cable.uncertain.value) names.push_back(key.name);
   }
+  const bool moves = std::any_of(set_.experiments.begin(), set_.experiments.end(),
+                                 [](const Experiment& e) { return !e.quasi_static(); });
+  // What the set says to be unknown is looked for, listed or not.
+  for (const char* damping : kDampings)
+    if (moves && IsUnknown(damping, set_.cable) && !std::count(names.begin(), names.end(), damping))
+      names.push_back(damping);
   const bool disc =
       std::any_of(set_.experiments.begin(), set_.experiments.end(),
                   [](const Experiment& e) { return HasDisc(e) && !e.quasi_static(); });

@@ -1,19 +1,11 @@
 #include "specimen_check.h"
 
+#include <utility>
+
+#include "cosserat_cable/measurement/specimen.h"
+
 namespace cosserat_cable {
 namespace {
-
-// Any damping will do to check the rest with.
-void Know(DampingKey* damping) {
-  if (damping->kind == DampingKey::Kind::kUnknown) *damping = {DampingKey::Kind::kNumber, 0};
-}
-void Know(CableKey<DampingKey>* key) {
-  if (key->value) Know(&*key->value);
-}
-void Know(CableKey<std::array<DampingKey, 2>>* key) {
-  if (!key->value) return;
-  for (DampingKey& damping : *key->value) Know(&damping);
-}
 
 template <typename T>
 void Refuse(const CableKey<T>& key, const std::string& why, Problems* problems) {
@@ -28,11 +20,8 @@ void CheckSpecimen(CableKeys keys, const SourceMark& cable, Problems* problems) 
                   "missing, expected a number >= 0 [N m^2 s], 'critical', or null where it is "
                   "unknown");
   }
-  Know(&keys.eta_EI);
-  Know(&keys.eta_GJ);
-  Know(&keys.eta_EA);
-  Know(&keys.eta_GA);
-  CompleteCable(keys, cable, problems);
+  // Any damping will do to check the rest with.
+  CompleteCable(WithoutUnknownDamping(std::move(keys)), cable, problems);
 }
 
 void RefuseVehicleKeys(const CableKeys& keys, Problems* problems) {

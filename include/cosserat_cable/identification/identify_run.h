@@ -4,6 +4,7 @@
 #include <string>
 
 #include "cosserat_cable/console/exit_code.h"
+#include "cosserat_cable/identification/plan.h"
 #include "cosserat_cable/identification/unknowns.h"
 
 namespace cosserat_cable {
@@ -13,6 +14,9 @@ struct IdentifyRunOptions {
   std::string output;  ///< folder
   UnknownOptions unknowns;
   bool profiles = true;
+  bool direct = true;  ///< the source paper's evaluation beside the fit
+  bool plan = false;
+  PlanOptions plan_options;
   bool report = true;
   bool pdf = false;
   std::string report_program;  ///< scripts/identification_report
