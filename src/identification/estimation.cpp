@@ -23,9 +23,6 @@ constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
 constexpr double kBestChannel = 1e-7;
 // Residuals so many times the noise show that the simulation lacks something.
 constexpr double kMisfit = 1.5;
-// A derivative whose records, over the unknown's whole range, stay below this part of the noise's
-// sum of squares is none.
-constexpr double kUnseen = 1e-3;
 
 double RangeOf(const Eigen::MatrixXd& values, int column) {
   return values.col(column).maxCoeff() - values.col(column).minCoeff();
@@ -46,7 +43,6 @@ class Work {
   }
   void GuessNoise();
   bool UpdateNoise();
-  void LeaveOutUnseen();
   bool FitToEnd();
   bool Conclude();
   void Report();
@@ -97,48 +93,36 @@ bool Work::UpdateNoise() {
   return changed;
 }
 
-void Work::LeaveOutUnseen() {
-  const RecordModel::Derivatives found = model_.Differentiate(
-      optimum_.values, model_.WholeHorizon(), RecordModel::Difference::kForward);
-  if (!found.at.ok) return;
-  for (int i = 0; i < unknowns_.size(); ++i)
-    for (std::size_t e = 0; e < experiments().size(); ++e) {
-      const Eigen::MatrixXd& by = found.by_unknown[i][e];
-      double seen = 0;
-      for (int c = 0; c < by.cols(); ++c)
-        seen += by.col(c).squaredNorm() / (noise_[e][c] * noise_[e][c]);
-      if (by.size() > 0 && seen < kUnseen) model_.Ignore(i, static_cast<int>(e));
-    }
-}
-
 bool Work::FitToEnd() {
+  FitResult fit;
+  bool noise_changed = true;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (!Tell("comparing with finer steps", 0.35 + 0.1 * round)) return false;
     estimation_.discretisation = model_.Refine(optimum_.values);
     const Eigen::VectorXd before = optimum_.values;
-    const FitProgress progress = [&](const std::string& what) {
-      return Tell("fitting whole records, " + what, 0.4 + 0.1 * round);
-    };
-    const FitResult fit =
-        Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, false, progress);
-    if (fit.interrupted) return false;
-    if (!fit.ok) {
-      estimation_.message = "the fit does not converge: " + fit.message;
-      return false;
-    }
-    optimum_.values = fit.values;
-    simulated_ = model_.Simulate({fit.values}, model_.WholeHorizon()).front().records;
-    const bool noise_changed = UpdateNoise();
-    double moved = 0;
-    if (optimum_.covariance.size() > 0)
-      for (int i = 0; i < unknowns_.size(); ++i) {
-        const double sd = std::sqrt(optimum_.covariance(i, i)) * unknowns_.all()[i].scale;
-        if (sd > 0) moved = std::max(moved, std::abs(fit.values[i] - before[i]) / sd);
+    const bool polished = !noise_changed && Polish(model_, fit.jacobian, noise_, &optimum_.values);
+    if (!polished) {
+      const FitProgress progress = [&](const std::string& what) {
+        return Tell("fitting whole records, " + what, 0.4 + 0.1 * round);
+      };
+      fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, false, progress);
+      if (fit.interrupted) return false;
+      if (!fit.ok) {
+        estimation_.message = "the fit does not converge: " + fit.message;
+        return false;
       }
-    if (!Conclude()) return false;
+      optimum_.values = fit.values;
+    }
+    simulated_ = model_.Simulate({optimum_.values}, model_.WholeHorizon()).front().records;
+    noise_changed = UpdateNoise();
+    // Against the standard deviations of the unknowns by themselves: the strictest measure.
+    double moved = 0;
+    for (int i = 0; i < unknowns_.size(); ++i)
+      moved = std::max(moved, std::abs(optimum_.values[i] - before[i]) / unknowns_.all()[i].scale *
+                                  fit.jacobian.col(i).norm());
     if (round > 0 && !noise_changed && moved < kSettled) break;
   }
-  return true;
+  return Conclude();
 }
 
 /// Derivatives, residuals and their colour at the optimum.
@@ -160,8 +144,6 @@ bool Work::Conclude() {
     for (std::size_t c = 0; c < experiment.channels.size(); ++c, row += n)
       colours_.back().push_back(ColourOf(optimum_.residuals.segment(row, n)));
   }
-  const Information information = InformationOf(model_, optimum_.jacobian, colours_);
-  optimum_.covariance = Determine(model_, optimum_.values, information).covariance;
   return true;
 }
 
@@ -274,7 +256,7 @@ Estimation Work::Run() {
     guesses.push_back(guess);
   }
   const FitProgress early = [&](const std::string& what) { return Tell(what, 0.1); };
-  const FitResult start = FitFromAfar(model_, guesses, noise_, early);
+  const FitResult start = FitFromAfar(&model_, guesses, noise_, early);
   if (!start.ok) {
     estimation_.interrupted = start.interrupted;
     estimation_.message =
@@ -282,7 +264,6 @@ Estimation Work::Run() {
     return estimation_;
   }
   optimum_.values = start.values;
-  LeaveOutUnseen();
   if (!FitToEnd()) {
     estimation_.interrupted = estimation_.message.empty();
     return estimation_;

@@ -2,8 +2,10 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 namespace cosserat_cable {
@@ -11,20 +13,29 @@ namespace {
 
 constexpr int kMaxIterations = 40;
 constexpr int kLooseIterations = 12;
-constexpr double kLoose = 1e-3, kTight = 1e-9;  // last relative change of the cost
+constexpr double kLoose = 1e-3, kTight = 1e-8;  // last relative change of the cost
 // Parts of the records that are fitted one after the other, and the fewest samples of a part.
 constexpr double kParts[] = {0.06, 0.25, 1.0};
 constexpr int kFewestSamples = 40;
 // Where the search looks: around the start, within these factors.
 constexpr double kStiffnessSpread = 1.6, kDampingSpread = 6.0;
 constexpr int kPoints = 24, kBest = 2;
+// A derivative whose records, over the unknown's whole size, stay below this part of the noise's
+// sum of squares is none.
+constexpr double kUnseen = 1e-3;
+// Steps with old derivatives; the gain in the sum of squares that is not worth another, and the
+// loss that rounding may make.
+constexpr int kPolishSteps = 6;
+constexpr double kPolished = 1e-4, kPolishNoise = 1e-2;
 constexpr std::uint32_t kSeed = 20150113;
 
 /// All records against one block of unknowns in units of their scales.
 class RecordCost : public ceres::CostFunction {
  public:
-  RecordCost(const RecordModel& model, const Horizon& horizon, const NoiseLevels& noise, int count)
-      : model_(model), horizon_(horizon), noise_(noise) {
+  /// `jacobian`: where the last one is left.
+  RecordCost(const RecordModel& model, const Horizon& horizon, const NoiseLevels& noise, int count,
+             Eigen::MatrixXd* jacobian)
+      : model_(model), horizon_(horizon), noise_(noise), jacobian_(jacobian) {
     mutable_parameter_block_sizes()->push_back(model.unknowns().size());
     set_num_residuals(count);
   }
@@ -40,8 +51,10 @@ class RecordCost : public ceres::CostFunction {
           model_.Differentiate(values, horizon_, RecordModel::Difference::kForward);
       if (!found.at.ok) return false;
       out = WeightedResiduals(model_, values, found.at.records, noise_);
+      const Eigen::MatrixXd jacobian = WeightedJacobian(model_, found, noise_);
       Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], num_residuals(), n) = WeightedJacobian(model_, found, noise_);
+          jacobians[0], num_residuals(), n) = jacobian;
+      *jacobian_ = jacobian;
       return true;
     }
     const RecordModel::Simulated found = model_.Simulate({values}, horizon_).front();
@@ -54,6 +67,7 @@ class RecordCost : public ceres::CostFunction {
   const RecordModel& model_;
   const Horizon& horizon_;
   const NoiseLevels& noise_;
+  Eigen::MatrixXd* jacobian_;
 };
 
 class Callback : public ceres::IterationCallback {
@@ -72,6 +86,20 @@ class Callback : public ceres::IterationCallback {
 int SamplesUntil(const Experiment& experiment, double time) {
   const std::vector<double>& t = experiment.record.t;
   return static_cast<int>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
+}
+
+void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, RecordModel* model) {
+  const RecordModel::Derivatives found =
+      model->Differentiate(values, model->WholeHorizon(), RecordModel::Difference::kForward);
+  if (!found.at.ok) return;
+  for (std::size_t i = 0; i < found.by_unknown.size(); ++i)
+    for (std::size_t e = 0; e < noise.size(); ++e) {
+      const Eigen::MatrixXd& by = found.by_unknown[i][e];
+      double seen = 0;
+      for (int c = 0; c < by.cols(); ++c)
+        seen += by.col(c).squaredNorm() / std::pow(noise[e][c], 2);
+      if (by.size() > 0 && seen < kUnseen) model->Ignore(static_cast<int>(i), static_cast<int>(e));
+    }
 }
 
 /// Spread evenly over the box around the start, the same on each run.
@@ -157,8 +185,10 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
 
   Eigen::VectorXd x(unknowns.size());
   for (int i = 0; i < unknowns.size(); ++i) x[i] = values[i] / unknowns.all()[i].scale;
+  FitResult result;
   ceres::Problem problem;
-  problem.AddResidualBlock(new RecordCost(model, horizon, noise, count), nullptr, x.data());
+  problem.AddResidualBlock(new RecordCost(model, horizon, noise, count, &result.jacobian), nullptr,
+                           x.data());
   for (int i = 0; i < unknowns.size(); ++i) {
     const Unknown& u = unknowns.all()[i];
     if (std::isfinite(u.lower)) problem.SetParameterLowerBound(x.data(), i, u.lower / u.scale);
@@ -175,7 +205,6 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
 
-  FitResult result;
   result.interrupted = summary.termination_type == ceres::USER_FAILURE;
   result.ok = summary.IsSolutionUsable() && !result.interrupted;
   result.message = summary.message;
@@ -186,18 +215,43 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   return result;
 }
 
-FitResult FitFromAfar(const RecordModel& model, const std::vector<Eigen::VectorXd>& more,
+bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const NoiseLevels& noise,
+            Eigen::VectorXd* values) {
+  const Unknowns& unknowns = model.unknowns();
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solve(jacobian);
+  Eigen::VectorXd best = *values;
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step <= kPolishSteps; ++step) {
+    const RecordModel::Simulated found = model.Simulate({best}, model.WholeHorizon()).front();
+    if (!found.ok) return false;
+    const Eigen::VectorXd residuals = WeightedResiduals(model, best, found.records, noise);
+    const double cost = residuals.squaredNorm();
+    if (cost > least + kPolishNoise) return false;
+    least = std::min(least, cost);
+    *values = best;
+    const Eigen::VectorXd move = -solve.solve(residuals);
+    const double gain = (jacobian * move).squaredNorm();
+    if (gain < kPolished) return true;
+    for (int i = 0; i < unknowns.size(); ++i) {
+      const Unknown& u = unknowns.all()[i];
+      best[i] = std::clamp(best[i] + move[i] * u.scale, u.lower, u.upper);
+    }
+  }
+  return false;
+}
+
+FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
                       const NoiseLevels& noise, const FitProgress& progress) {
-  std::vector<Eigen::VectorXd> points = PointsAround(model.unknowns());
-  points.push_back(model.unknowns().StartValues());
+  std::vector<Eigen::VectorXd> points = PointsAround(model->unknowns());
+  points.push_back(model->unknowns().StartValues());
   points.insert(points.end(), more.begin(), more.end());
-  const Horizon first = model.PartialHorizon(kParts[0], kFewestSamples);
+  const Horizon first = model->PartialHorizon(kParts[0], kFewestSamples);
   if (progress && !progress("looking for a start")) {
     FitResult stopped;
     stopped.interrupted = true;
     return stopped;
   }
-  const std::vector<RecordModel::Simulated> all = model.Simulate(points, first);
+  const std::vector<RecordModel::Simulated> all = model->Simulate(points, first);
   std::vector<std::pair<double, std::size_t>> ranking;
   std::string why;
   for (std::size_t p = 0; p < points.size(); ++p) {
@@ -205,7 +259,7 @@ FitResult FitFromAfar(const RecordModel& model, const std::vector<Eigen::VectorX
       why = all[p].message;
       continue;
     }
-    const double cost = WeightedResiduals(model, points[p], all[p].records, noise).squaredNorm();
+    const double cost = WeightedResiduals(*model, points[p], all[p].records, noise).squaredNorm();
     if (std::isfinite(cost)) ranking.push_back({cost, p});
   }
   FitResult best;
@@ -213,15 +267,16 @@ FitResult FitFromAfar(const RecordModel& model, const std::vector<Eigen::VectorX
   if (ranking.empty()) return best;
   std::sort(ranking.begin(), ranking.end());
   for (std::size_t k = 0; k < std::min<std::size_t>(kBest, ranking.size()); ++k) {
-    FitResult fit = Fit(model, points[ranking[k].second], first, noise, true, progress);
+    FitResult fit = Fit(*model, points[ranking[k].second], first, noise, true, progress);
     if (fit.interrupted) return fit;
     if (fit.ok && (!best.ok || fit.cost < best.cost)) best = fit;
   }
   for (std::size_t part = 1; part < std::size(kParts) && best.ok; ++part) {
     const bool last = part + 1 == std::size(kParts);
     const Horizon horizon =
-        last ? model.WholeHorizon() : model.PartialHorizon(kParts[part], kFewestSamples);
-    best = Fit(model, best.values, horizon, noise, true, progress);
+        last ? model->WholeHorizon() : model->PartialHorizon(kParts[part], kFewestSamples);
+    if (last) LeaveOutUnseen(best.values, noise, model);
+    best = Fit(*model, best.values, horizon, noise, true, progress);
     if (best.interrupted) return best;
   }
   return best;

@@ -32,6 +32,7 @@ struct FitResult {
   Eigen::VectorXd values;
   double cost = 0;  ///< half the sum of squares
   int iterations = 0;
+  Eigen::MatrixXd jacobian;  ///< WeightedJacobian near the end
 };
 
 /// Levenberg and Marquardt's method (Ceres) from `values`, with the unknowns in their bounds.
@@ -39,9 +40,15 @@ struct FitResult {
 FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
               const NoiseLevels& noise, bool loose, const FitProgress& progress);
 
+/// The last small steps to a minimum that is near, with the derivatives as they were there: Gauss
+/// and Newton's. False where they lead nowhere; `values` are left as they were then.
+bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const NoiseLevels& noise,
+            Eigen::VectorXd* values);
+
 /// From nowhere near: points spread around the start and `more` on the first part of the records,
-/// the best of them fitted to longer and longer parts, so that no swing is taken for the next.
-FitResult FitFromAfar(const RecordModel& model, const std::vector<Eigen::VectorXd>& more,
+/// the best of them fitted to longer and longer parts, so that no swing is taken for the next. On
+/// the way, unknowns that an experiment does not show are ignored there.
+FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
                       const NoiseLevels& noise, const FitProgress& progress);
 
 }  // namespace cosserat_cable

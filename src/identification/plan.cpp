@@ -14,6 +14,8 @@ namespace {
 constexpr double kNormal95 = 1.959964;
 constexpr double kInertias[] = {0.5, 1.0, 2.0};
 constexpr int kLengths = 5;
+// Relative half-widths of one round beyond which no number of repeats helps.
+constexpr double kHopeless = 1e3;
 
 /// The experiment with another length and disc: places scaled about clamp a.
 Experiment Scaled(const Experiment& like, double from, double to, double inertia_factor) {
@@ -52,19 +54,58 @@ double HalfWidth(const Eigen::MatrixXd& information, int target, double value, d
   return kNormal95 * std::sqrt(variance) * scale / value;
 }
 
-std::string WorstOf(const Estimation& estimation) {
-  std::string worst;
-  double widest = 0;
-  for (const ParameterEstimate& one : estimation.parameters) {
-    if (one.unknown.kind != Unknown::Kind::kCable) continue;
-    const double width = one.determined && one.value > 0 ? one.sd / one.value
-                                                         : std::numeric_limits<double>::infinity();
-    if (width > widest) {
-      widest = width;
-      worst = one.unknown.name;
+/// The relative half-width that the set itself gives; infinite where it determines nothing.
+double WidthNow(const ParameterEstimate& one) {
+  return one.determined && one.value > 0 ? kNormal95 * one.sd / one.value
+                                         : std::numeric_limits<double>::infinity();
+}
+
+/// The parameters, the one that is known worst first.
+std::vector<const ParameterEstimate*> WorstFirst(const Estimation& estimation) {
+  std::vector<const ParameterEstimate*> order;
+  for (const ParameterEstimate& one : estimation.parameters)
+    if (one.unknown.kind == Unknown::Kind::kCable) order.push_back(&one);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const ParameterEstimate* a, const ParameterEstimate* b) {
+                     return WidthNow(*a) > WidthNow(*b);
+                   });
+  return order;
+}
+
+/// Every length alone and every two lengths with one disc, as often as it takes.
+std::vector<PlanCandidate> CandidatesFor(int target, double value, double scale,
+                                         const MeasurementSet& set, const std::vector<Rated>& rated,
+                                         const PlanOptions& options) {
+  std::vector<PlanCandidate> candidates;
+  for (std::size_t i = 0; i < rated.size(); ++i)
+    for (std::size_t k = i; k < rated.size(); ++k) {
+      if (rated[i].like != rated[k].like || rated[i].inertia != rated[k].inertia) continue;
+      const bool pair = k != i;
+      const Eigen::MatrixXd once =
+          pair ? Eigen::MatrixXd(rated[i].information + rated[k].information)
+               : rated[i].information;
+      const double single = HalfWidth(once, target, value, scale);
+      if (!(single < kHopeless)) continue;
+      PlanCandidate candidate;
+      candidate.like = set.experiments[rated[i].like].name;
+      candidate.lengths = {rated[i].length};
+      if (pair) candidate.lengths.push_back(rated[k].length);
+      candidate.inertia = rated[i].inertia;
+      // Repeats add up.
+      const double needed = std::ceil(std::pow(single / options.accuracy, 2));
+      candidate.repeats =
+          static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(options.most_repeats)));
+      candidate.half_width = single / std::sqrt(candidate.repeats);
+      candidates.push_back(candidate);
     }
-  }
-  return worst;
+  const auto reaches = [&](const PlanCandidate& c) { return c.half_width <= options.accuracy; };
+  std::sort(candidates.begin(), candidates.end(),
+            [&](const PlanCandidate& a, const PlanCandidate& b) {
+              if (reaches(a) != reaches(b)) return reaches(a);
+              if (reaches(a) && a.records() != b.records()) return a.records() < b.records();
+              return a.half_width < b.half_width;
+            });
+  return candidates;
 }
 
 }  // namespace
@@ -73,11 +114,13 @@ Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const Pla
               const EstimationProgress& progress) {
   Plan plan;
   plan.accuracy = options.accuracy;
-  plan.target = options.target.empty() ? WorstOf(estimation) : options.target;
 
   MeasurementSet rigs = set;
   rigs.cable = estimation.cable;
-  rigs.cable.uncertain = set.cable.uncertain;
+  rigs.cable.uncertain = {std::vector<UncertainKey>(), set.cable_mark};
+  for (const ParameterEstimate& one : estimation.parameters)
+    if (one.unknown.kind == Unknown::Kind::kCable)
+      rigs.cable.uncertain.value->push_back({one.unknown.name, set.cable_mark});
   std::vector<Rated> rated;
   std::vector<double> lengths;
   for (const Experiment& experiment : set.experiments)
@@ -122,10 +165,8 @@ Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const Pla
       std::any_of(estimation.parameters.begin(), estimation.parameters.end(),
                   [](const ParameterEstimate& one) { return one.unknown.name == kEndDamping; });
   const Unknowns unknowns(rigs, unknown_options, &problems);
-  const int target = problems.empty() ? unknowns.Find(plan.target) : -1;
-  if (target < 0) {
-    plan.message = problems.empty() ? "[" + plan.target + "] is none of the set's unknowns"
-                                    : problems.ToString();
+  if (!problems.empty()) {
+    plan.message = problems.ToString();
     return plan;
   }
   if (progress && !progress("planning", 0.95)) return plan;
@@ -147,43 +188,19 @@ Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const Pla
     row += n;
   }
 
-  const double value = values[target], scale = unknowns.all()[target].scale;
-  for (const ParameterEstimate& one : estimation.parameters)
-    if (one.unknown.name == plan.target)
-      plan.half_width_now = one.determined && one.value > 0
-                                ? kNormal95 * one.sd / one.value
-                                : std::numeric_limits<double>::infinity();
-  // Every single length and every pair, with one disc.
-  for (std::size_t i = 0; i < rated.size(); ++i)
-    for (std::size_t k = i; k < rated.size(); ++k) {
-      if (rated[i].like != rated[k].like || rated[i].inertia != rated[k].inertia) continue;
-      const bool pair = k != i;
-      const Eigen::MatrixXd once =
-          pair ? Eigen::MatrixXd(rated[i].information + rated[k].information)
-               : rated[i].information;
-      PlanCandidate candidate;
-      candidate.like = set.experiments[rated[i].like].name;
-      candidate.lengths = {rated[i].length};
-      if (pair) candidate.lengths.push_back(rated[k].length);
-      candidate.inertia = rated[i].inertia;
-      const double single = HalfWidth(once, target, value, scale);
-      if (!std::isfinite(single)) continue;
-      // Repeats add up.
-      const double needed = std::ceil(std::pow(single / options.accuracy, 2));
-      candidate.repeats =
-          static_cast<int>(std::clamp(needed, 1.0, static_cast<double>(options.most_repeats)));
-      candidate.half_width = single / std::sqrt(candidate.repeats);
-      plan.candidates.push_back(candidate);
-    }
-  const auto reaches = [&](const PlanCandidate& c) { return c.half_width <= options.accuracy; };
-  std::sort(plan.candidates.begin(), plan.candidates.end(),
-            [&](const PlanCandidate& a, const PlanCandidate& b) {
-              if (reaches(a) != reaches(b)) return reaches(a);
-              if (reaches(a) && a.records() != b.records()) return a.records() < b.records();
-              return a.half_width < b.half_width;
-            });
-  plan.reached = !plan.candidates.empty() && reaches(plan.candidates.front());
-  if (plan.candidates.empty())
+  for (const ParameterEstimate* one : WorstFirst(estimation)) {
+    const int target = unknowns.Find(one->unknown.name);
+    if (target < 0 || (!options.target.empty() && one->unknown.name != options.target)) continue;
+    plan.target = one->unknown.name;
+    plan.half_width_now = WidthNow(*one);
+    plan.candidates =
+        CandidatesFor(target, values[target], unknowns.all()[target].scale, set, rated, options);
+    if (!plan.candidates.empty()) break;
+  }
+  plan.reached = !plan.candidates.empty() && plan.candidates.front().half_width <= options.accuracy;
+  if (plan.target.empty())
+    plan.message = "[" + options.target + "] is none of the set's unknowns";
+  else if (plan.candidates.empty())
     plan.message = "[" + plan.target + "] shows in none of the set's rigs at any length";
   return plan;
 }
