@@ -20,6 +20,21 @@ void CheckLink(const std::string& link, const SourceMark& mark,
                           (nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
 }
 
+/// The entry of this name, or null.
+const CableExtension* Find(const CableModel& cable, const std::string& name) {
+  for (const CableExtension& extension : cable.extensions)
+    if (extension.name == name) return &extension;
+  return nullptr;
+}
+
+/// A loss at a disc, where there is a rigid clamp.
+bool DampsARigidClamp(const CableModel& cable) {
+  const CableExtension* damping = Find(cable, "clamp_damping");
+  const CableExtension* springs = Find(cable, "clamp_compliance");
+  return damping && damping->parts.front().count(kDiscDashpot) &&
+         !(springs && springs->parts.front().count(kDiscDashpot));
+}
+
 }  // namespace
 
 void CheckAgainstVehicle(const CableFile& file, const std::vector<std::string>& link_names,
@@ -31,6 +46,12 @@ void CheckAgainstVehicle(const CableFile& file, const std::vector<std::string>& 
     if (file.specimen && marks.a_link.line == 0 && marks.b_link.line == 0) {
       found.Add(marks.cable,
                 "got a cable without clamps, expected links `a` and `b` of the vehicle");
+    }
+    if (DampsARigidClamp(cable)) {
+      found.Add(
+          marks.cable,
+          "got clamp_damping of b in torsion, the loss at a disc of a measurement set, expected "
+          "none at a vehicle's clamp, or clamp_compliance of b in torsion beside it");
     }
     CheckLink(cable.a.link, marks.a_link, link_names, &found);
     CheckLink(cable.b.link, marks.b_link, link_names, &found);

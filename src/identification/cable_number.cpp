@@ -79,7 +79,6 @@ double* ExtensionNumber(const std::string& name, CableKeys* keys) {
 }
 
 constexpr const char* kDashpotLaw = "clamp_damping";
-constexpr const char* kDashpotPath = "b.torsion";
 
 double* Dashpot(CableKeys* keys, bool make) {
   if (!keys->extensions.value) {
@@ -90,17 +89,17 @@ double* Dashpot(CableKeys* keys, bool make) {
   for (ExtensionKey& key : *keys->extensions.value)
     if (key.extension.name == kDashpotLaw) {
       auto& numbers = key.extension.parts.front();
-      if (!make && !numbers.count(kDashpotPath)) return nullptr;
-      return &numbers[kDashpotPath];
+      if (!make && !numbers.count(kDiscDashpot)) return nullptr;
+      return &numbers[kDiscDashpot];
     }
   if (!make) return nullptr;
   ExtensionKey key;
   key.extension.name = kDashpotLaw;
-  key.extension.parts.push_back({{kDashpotPath, 0.0}});
+  key.extension.parts.push_back({{kDiscDashpot, 0.0}});
   key.mark = {"identified", 1, std::string("extensions.") + kDashpotLaw};
   key.marks.resize(1);
   keys->extensions.value->push_back(key);
-  return &keys->extensions.value->back().extension.parts.front()[kDashpotPath];
+  return &keys->extensions.value->back().extension.parts.front()[kDiscDashpot];
 }
 
 std::optional<double> Known(const DampingKey& key) {

@@ -21,11 +21,29 @@ constexpr int kMaxRounds = 4;
 constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
 // No channel is taken to be better than this part of its range: simulations are not.
 constexpr double kBestChannel = 1e-7;
+// What the largest of a record's frequencies gains by chance, in its sum of squares by the noise's,
+// grows as twice the logarithm of their number; twice that, and a base for short records.
+constexpr double kSilentBase = 20, kSilentPerLog = 4;
 // Residuals so many times the noise show that the simulation lacks something.
 constexpr double kMisfit = 1.5;
 
 double RangeOf(const Eigen::MatrixXd& values, int column) {
   return values.col(column).maxCoeff() - values.col(column).minCoeff();
+}
+
+/// Residuals of a channel at the samples that count.
+Eigen::VectorXd UsableResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
+                                const Eigen::MatrixXd& usable, int column) {
+  std::vector<double> residuals;
+  for (Eigen::Index i = 0; i < simulated.rows(); ++i)
+    if (usable(i, column) > 0)
+      residuals.push_back(experiment.record.values(i, column) - simulated(i, column));
+  return Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
+}
+
+double Rms(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size()))
+                           : 0.0;
 }
 
 /// The work, step by step.
@@ -44,6 +62,7 @@ class Work {
   void GuessNoise();
   bool UpdateNoise();
   bool FitToEnd();
+  void LeaveOutSilent();
   bool Conclude();
   void Report();
   void ReportChannels();
@@ -82,10 +101,9 @@ bool Work::UpdateNoise() {
     for (std::size_t c = 0; c < experiments()[e].channels.size(); ++c) {
       if (experiments()[e].channels[c].sigma) continue;
       const int column = static_cast<int>(c);
-      const Eigen::VectorXd residual =
-          experiments()[e].record.values.col(column) - simulated_[e].col(column);
-      const double rms = std::max(std::sqrt(residual.squaredNorm() / residual.size()),
-                                  kBestChannel * RangeOf(experiments()[e].record.values, column));
+      const double rms = std::max(
+          Rms(UsableResiduals(experiments()[e], simulated_[e], model_.usable()[e], column)),
+          kBestChannel * RangeOf(experiments()[e].record.values, column));
       if (!(rms > 0)) continue;
       changed |= std::abs(rms / noise_[e][column] - 1) > kNoiseSettled;
       noise_[e][column] = rms;
@@ -122,7 +140,31 @@ bool Work::FitToEnd() {
                                   fit.jacobian.col(i).norm());
     if (round > 0 && !noise_changed && moved < kSettled) break;
   }
+  LeaveOutSilent();
   return Conclude();
+}
+
+/// Records that the simulation explains no better than a constant does show nothing but noise, and
+/// whatever the search found in them was luck.
+void Work::LeaveOutSilent() {
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    double gain = 0;
+    Eigen::Index samples = 0;
+    for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c) {
+      const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(
+          simulated_[e].rows(), simulated_[e].cols(), experiments()[e].record.values.col(c).mean());
+      const Eigen::MatrixXd& usable = model_.usable()[e];
+      const double variance = noise_[e][c] * noise_[e][c];
+      gain += (UsableResiduals(experiments()[e], constant, usable, c).squaredNorm() -
+               UsableResiduals(experiments()[e], simulated_[e], usable, c).squaredNorm()) /
+              variance;
+      samples += simulated_[e].rows();
+    }
+    if (gain > kSilentBase + kSilentPerLog * std::log(static_cast<double>(samples))) continue;
+    model_.LeaveOut(static_cast<int>(e));
+    estimation_.warnings.push_back(experiments()[e].name +
+                                   ": the record shows nothing but noise, and counts for nothing");
+  }
 }
 
 /// Derivatives, residuals and their colour at the optimum.
@@ -137,12 +179,11 @@ bool Work::Conclude() {
   optimum_.jacobian = WeightedJacobian(model_, found, noise_);
   optimum_.residuals = WeightedResiduals(model_, optimum_.values, simulated_, noise_);
   colours_.clear();
-  int row = 0;
-  for (const Experiment& experiment : experiments()) {
-    const auto n = static_cast<int>(experiment.record.t.size());
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
     colours_.emplace_back();
-    for (std::size_t c = 0; c < experiment.channels.size(); ++c, row += n)
-      colours_.back().push_back(ColourOf(optimum_.residuals.segment(row, n)));
+    for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c)
+      colours_.back().push_back(ColourOf(
+          UsableResiduals(experiments()[e], simulated_[e], model_.usable()[e], c) / noise_[e][c]));
   }
   return true;
 }
@@ -174,13 +215,11 @@ void Work::ReportChannels() {
     fit.simulated = simulated_[e];
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
       const int column = static_cast<int>(c);
-      const Eigen::VectorXd residual =
-          experiment.record.values.col(column) - simulated_[e].col(column);
       ChannelFit channel;
       channel.column = experiment.channels[c].column;
       channel.sigma = noise_[e][column];
       channel.sigma_given = experiment.channels[c].sigma.has_value();
-      channel.rms = std::sqrt(residual.squaredNorm() / residual.size());
+      channel.rms = Rms(UsableResiduals(experiment, simulated_[e], model_.usable()[e], column));
       channel.correlation_samples = colours_[e][c].correlation_samples;
       const double noise =
           channel.sigma_given ? channel.sigma : NoiseOfSmooth(experiment.record.values.col(column));

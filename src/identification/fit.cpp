@@ -138,7 +138,8 @@ Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorX
   for (std::size_t e = 0; e < experiments.size(); ++e)
     for (int c = 0; c < simulated[e].cols(); ++c)
       for (int i = 0; i < simulated[e].rows(); ++i)
-        residuals.push_back((experiments[e].record.values(i, c) - simulated[e](i, c)) /
+        residuals.push_back(model.usable()[e](i, c) *
+                            (experiments[e].record.values(i, c) - simulated[e](i, c)) /
                             noise[e][c]);
   for (int i = 0; i < model.unknowns().size(); ++i) {
     const Unknown& u = model.unknowns().all()[i];
@@ -163,7 +164,9 @@ Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
       const Eigen::MatrixXd& by = derivatives.by_unknown[i][e];
       for (int c = 0; c < records[e].cols(); ++c) {
         const int n = static_cast<int>(records[e].rows());
-        if (by.size() > 0) jacobian.col(i).segment(row, n) = -by.col(c) / noise[e][c];
+        if (by.size() > 0)
+          jacobian.col(i).segment(row, n) =
+              -by.col(c).cwiseProduct(model.usable()[e].col(c).head(n)) / noise[e][c];
         row += n;
       }
     }

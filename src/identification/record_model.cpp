@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "cosserat_cable/measurement/sample_runs.h"
 #include "cosserat_cable/rod/rod_batch.h"
 
 namespace cosserat_cable {
@@ -12,8 +14,9 @@ namespace {
 
 // Coarse: what this costs in accuracy, Refine gives back.
 constexpr int kElements = 20;
-constexpr double kStep = 1e-3;    // [s]
-constexpr double kFinest = 1e-4;  // [s]
+// Of the samples' median interval, within bounds: a record shows nothing faster than its samples.
+constexpr double kStepOfInterval = 0.25, kSmallestStep = 1e-3, kLargestStep = 5e-3;  // [s]
+constexpr double kFinest = 1e-4;                                                     // [s]
 constexpr double kTooFar =
     0.05;  // correction in parts of a channel's range that asks for finer steps
 // In parts of an unknown's scale. Above what Newton's tolerance leaves, below what turns the phase
@@ -31,13 +34,60 @@ double Range(const Eigen::MatrixXd& values, int column) {
   return values.col(column).maxCoeff() - values.col(column).minCoeff();
 }
 
+double StepFor(const Record& record) {
+  if (record.t.size() < 2) return kSmallestStep;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < record.t.size(); ++i)
+    intervals.push_back(record.t[i] - record.t[i - 1]);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return std::clamp(kStepOfInterval * *middle, kSmallestStep, kLargestStep);
+}
+
+/// One for what a sensor measured, zero for stretches in which it stood still or was at its limit.
+Eigen::MatrixXd UsableSamples(const Record& record) {
+  Eigen::MatrixXd usable = Eigen::MatrixXd::Ones(record.values.rows(), record.values.cols());
+  if (record.quasi_static) return usable;
+  for (Eigen::Index c = 0; c < usable.cols(); ++c)
+    for (const auto& runs : {FrozenRuns(record.values.col(c)), ClippedRuns(record.values.col(c))})
+      for (const SampleRun& run : runs) usable.col(c).segment(run.first, run.count).setZero();
+  return usable;
+}
+
+/// What the steps of these options do to the records: from runs 1.5 and 2 times as fine, by the
+/// polynomial in the square of the fineness through the three, at zero. Two runs would do for the
+/// error itself, but not for the square of the phase that it has built up at a record's end, which
+/// looks like damping. Nothing where a run fails.
+std::optional<Eigen::MatrixXd> CorrectionOf(const Experiment& experiment, const Specimen& specimen,
+                                            const SimulationOptions& options) {
+  constexpr double kFineness[] = {1.0, 1.5, 2.0};
+  std::optional<Eigen::MatrixXd> correction;
+  for (const double fineness : kFineness) {
+    SimulationOptions finer = options;
+    finer.dt = options.dt / fineness;
+    finer.elements = static_cast<int>(std::lround(options.elements * fineness));
+    const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, finer).front();
+    if (!record.ok) return std::nullopt;
+    // Lagrange's weight at zero, of x = 1/fineness^2.
+    double weight = 1;
+    for (const double other : kFineness)
+      if (other != fineness) weight /= 1 - std::pow(other / fineness, 2);
+    if (!correction)
+      correction = (weight - 1) * record.values;
+    else
+      *correction += weight * record.values;
+  }
+  return correction;
+}
+
 }  // namespace
 
 RecordModel::RecordModel(const Unknowns& unknowns) : unknowns_(unknowns) {
   for (const Experiment& experiment : unknowns.set().experiments) {
     SimulationOptions options;
     options.elements = kElements;
-    options.dt = kStep;
+    options.dt = StepFor(experiment.record);
+    usable_.push_back(UsableSamples(experiment.record));
     options_.push_back(options);
     correction_.push_back(Eigen::MatrixXd::Zero(static_cast<int>(experiment.record.t.size()),
                                                 static_cast<int>(experiment.channels.size())));
@@ -210,26 +260,18 @@ double RecordModel::Refine(const Eigen::VectorXd& values) {
     Problems problems;
     const Specimen specimen = unknowns_.MakeSpecimen(static_cast<int>(e), values, &problems);
     if (!problems.empty()) return;
-    SimulationOptions coarse = options_[e];
-    SimulatedRecord at_coarse = SimulateExperiment(experiments[e], {specimen}, coarse).front();
-    for (;;) {
-      SimulationOptions fine = coarse;
-      fine.dt /= 2;
-      fine.elements *= 2;
-      SimulatedRecord at_fine = SimulateExperiment(experiments[e], {specimen}, fine).front();
-      if (!at_coarse.ok || !at_fine.ok) return;
-      const Eigen::MatrixXd correction = (at_fine.values - at_coarse.values) * (4.0 / 3.0);
+    for (SimulationOptions options = options_[e];; options.dt /= 2, options.elements *= 2) {
+      std::optional<Eigen::MatrixXd> correction = CorrectionOf(experiments[e], specimen, options);
+      if (!correction) return;
       double size = 0;
-      for (int c = 0; c < correction.cols(); ++c) {
-        const double range = Range(at_fine.values, c);
-        if (range > 0) size = std::max(size, correction.col(c).cwiseAbs().maxCoeff() / range);
+      for (int c = 0; c < correction->cols(); ++c) {
+        const double range = Range(experiments[e].record.values, c);
+        if (range > 0) size = std::max(size, correction->col(c).cwiseAbs().maxCoeff() / range);
       }
-      options_[e] = coarse;
-      correction_[e] = correction;
+      options_[e] = options;
+      correction_[e] = std::move(*correction);
       largest[e] = size;
-      if (size < kTooFar || fine.dt < kFinest) return;
-      coarse = fine;
-      at_coarse = std::move(at_fine);
+      if (size < kTooFar || options.dt < kFinest) return;
     }
   });
   return *std::max_element(largest.begin(), largest.end());

@@ -197,6 +197,7 @@ MeasurementSet wireSet(std::uint64_t seed, double snr) {
 
 MeasurementSet torsionSeries(std::uint64_t seed, double snr, int lengths, int repeats) {
   constexpr double kRatio = 0.25;  // damping ratio at the shortest length
+  constexpr double kPeriods = 5.0, kSamplesPerPeriod = 40.0;
   Random random(seed);
   MeasurementSet set = begin(lengths > 1 ? "torsion-series" : "torsion-single", seed, snr);
   CableData c;
@@ -222,8 +223,11 @@ MeasurementSet torsionSeries(std::uint64_t seed, double snr, int lengths, int re
     for (int repeat = 0; repeat < repeats; ++repeat) {
       const std::string name =
           "torsion_" + std::to_string(i + 1) + "_" + std::to_string(repeat + 1);
-      experiments.push_back(
-          torsion(name, c, length, disc, true, torsionTime(c, length, disc), &random));
+      // As slow as the discs of a pendulum whose fixation damps so much: a camera is enough.
+      const double period = 2.0 * kPi * std::sqrt(disc.inertia * length / c.GJ);
+      experiments.push_back(torsion(name, c, length, disc, true, kPeriods * period, &random));
+      experiments.back().times =
+          jitteredTimes(kPeriods * period, kSamplesPerPeriod / period, kJitter, &random);
     }
   }
   set.uncertain = {"GJ", "eta_GJ"};

@@ -34,7 +34,7 @@ double Crossing(const Experiment& experiment, const Eigen::VectorXd& y, int n) {
 }
 
 TEST(ExperimentSimulationTest, ARingDownSwingsAsEulerAndBernoulliSay) {
-  const Experiment experiment = RingDown(0.001, 1.0, 1001);
+  const Experiment experiment = RingDown(0.001, 4.0, 4001);
   const Specimen specimen = CableSpecimen();
   const RefinedRecord refined = SimulateRefined(experiment, specimen, Fine());
   ASSERT_TRUE(refined.record.ok) << refined.record.message;

@@ -7,6 +7,9 @@
 
 namespace cosserat_cable {
 
+/// Path, in `clamp_damping`, of the loss D_E at a disc that turns freely at end b.
+inline constexpr const char* kDiscDashpot = "b.torsion";
+
 /// One entry of a cable's `extensions`: its name, and its numbers in SI units with all defaults
 /// filled in. config/cables/template.yaml says what there is and what each number means.
 struct CableExtension {

@@ -44,10 +44,15 @@ class RecordModel {
                             Difference difference) const;
 
   /// Finds at these values what the steps in space and time make of the records, by comparing with
-  /// twice the elements and half the step, and corrects all further simulations by it. Experiments
-  /// for which the two are too far apart are simulated more finely from then on.
+  /// finer runs, and corrects all further simulations by it. Experiments for which they are too far
+  /// apart are simulated more finely from then on.
   /// @return the largest correction, in parts of its channel's range
   double Refine(const Eigen::VectorXd& values);
+
+  /// Per experiment, one for samples that count and zero for those that a sensor did not measure.
+  const Records& usable() const { return usable_; }
+  /// From now on the experiment's record counts for nothing.
+  void LeaveOut(int experiment) { usable_[static_cast<std::size_t>(experiment)].setZero(); }
 
   /// From now on the experiment is taken not to show the unknown.
   void Ignore(int unknown, int experiment) { ignored_.insert({unknown, experiment}); }
@@ -65,6 +70,7 @@ class RecordModel {
   const Unknowns& unknowns_;
   std::vector<SimulationOptions> options_;  // by experiment
   std::set<std::pair<int, int>> ignored_;
+  Records usable_;
   Records correction_;  // what is added to the simulated records
 };
 

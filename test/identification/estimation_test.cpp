@@ -1,0 +1,108 @@
+// What the fit says beyond the numbers; that the numbers are right is for test/tools/identify_test,
+// whose data come from another simulation.
+#include "cosserat_cable/identification/estimation.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../measurement/rigs.h"
+
+namespace cosserat_cable {
+namespace {
+
+using testing::CableSpecimen;
+
+/// A set with the cable of the rigs, its stiffness guessed and its damping unknown.
+MeasurementSet SetWith(std::vector<Experiment> experiments, const char* uncertain) {
+  MeasurementSet set;
+  const std::string text = std::string("length: 0.25\n") +
+                           "diameter: 0.006\nmass_per_length: 0.05\nEI: 0.003\nGJ: 0.0019\n" +
+                           "eta_EI: null\neta_GJ: null\nuncertain: " + uncertain + "\n";
+  Problems problems;
+  MapReader map(YamlValue::Root("set", YAML::Load(text), &problems));
+  set.cable = ReadCableKeys(&map);
+  set.cable_mark = map.mark();
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+  set.experiments = std::move(experiments);
+  return set;
+}
+
+/// Fills the record with what the rigs' cable shows, and noise of this standard deviation.
+void Record(const Specimen& specimen, double noise, Experiment* experiment) {
+  SimulationOptions options;
+  const SimulatedRecord record = SimulateRefined(*experiment, specimen, options).record;
+  ASSERT_TRUE(record.ok) << record.message;
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0, noise);
+  experiment->record.values = record.values.unaryExpr([&](double y) { return y + normal(random); });
+}
+
+const ParameterEstimate& Of(const Estimation& estimation, const std::string& name) {
+  for (const ParameterEstimate& one : estimation.parameters)
+    if (one.unknown.name == name) return one;
+  ADD_FAILURE() << name;
+  return estimation.parameters.front();
+}
+
+TEST(EstimationTest, AnUnknownOffsetIsFoundBesideTheParameters) {
+  const double J = 2e-6;
+  Experiment experiment = testing::Torsion(J, 0.5, 1.0, 401);
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = J;
+  Record(specimen, 0.002, &experiment);
+  experiment.record.values.array() += 0.1;
+  experiment.channels[0].unknown_offset = true;
+  const MeasurementSet set = SetWith({experiment}, "[GJ, eta_GJ]");
+  EstimationOptions options;
+  options.unknowns.end_damping = false;
+  Problems problems;
+  const Estimation estimation = Estimate(set, options, &problems);
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  ASSERT_TRUE(estimation.ok) << estimation.message;
+  constexpr double kBeyondLuck = 4;  // standard deviations
+  for (const auto& [name, truth] : {std::pair<const char*, double>{"GJ", specimen.cable.GJ},
+                                    {"eta_GJ", specimen.cable.eta_GJ},
+                                    {"torsion/angle.offset", 0.1}}) {
+    const ParameterEstimate& one = Of(estimation, name);
+    ASSERT_TRUE(one.determined) << one.reason;
+    EXPECT_NEAR(one.value, truth, kBeyondLuck * one.sd) << name;
+  }
+  // The bending damping shows in no record.
+  const ParameterEstimate& hidden = Of(estimation, "eta_EI");
+  EXPECT_FALSE(hidden.determined);
+  EXPECT_NE(hidden.reason.find("moves no record"), std::string::npos);
+  // The profile's interval is near the curvature's, and holds the value.
+  const ParameterEstimate& GJ = Of(estimation, "GJ");
+  EXPECT_NEAR(GJ.high - GJ.low, 2 * 1.96 * GJ.sd, 0.1 * 2 * 1.96 * GJ.sd);
+}
+
+TEST(EstimationTest, ItCanBeStopped) {
+  Experiment experiment = testing::Torsion(2e-6, 0.5, 0.5, 101);
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = 2e-6;
+  Record(specimen, 0.002, &experiment);
+  EstimationOptions options;
+  options.progress = [](const std::string&, double) { return false; };
+  Problems problems;
+  const Estimation estimation = Estimate(SetWith({experiment}, "[GJ]"), options, &problems);
+  EXPECT_FALSE(estimation.ok);
+  EXPECT_TRUE(estimation.interrupted);
+}
+
+TEST(EstimationTest, NoiseAloneDeterminesNothing) {
+  Experiment experiment = testing::RingDown(0.01, 0.5, 251);
+  Record(CableSpecimen(), 0.0, &experiment);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 0.05);
+  experiment.record.values =
+      experiment.record.values.unaryExpr([&](double) { return normal(random); });
+  Problems problems;
+  const Estimation estimation = Estimate(SetWith({experiment}, "[EI, eta_EI]"), {}, &problems);
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  for (const ParameterEstimate& one : estimation.parameters)
+    EXPECT_FALSE(one.determined) << one.unknown.name << " " << one.value << " +- " << one.sd;
+}
+
+}  // namespace
+}  // namespace cosserat_cable
