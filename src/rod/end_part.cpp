@@ -44,18 +44,25 @@ EndPart::Relative EndPart::Compare(const Node<double>& node) const {
 }
 
 void EndPart::ImposePose(Node<double>* node) const {
-  const Matrix3d R_WC = clamp().X.q.toRotationMatrix();
-  Vector3d d = ToEigen(node->r) - clamp().X.p;
-  for (int k = 0; k < 3; ++k)
-    if (model_.translation[k]) d -= R_WC.col(k) * R_WC.col(k).dot(d);
-  if (All(model_.translation)) d.setZero();
-  node->r = ToSmall(clamp().X.p + d);
+  const Pose& X_WC = clamp().X;
+  if (All(model_.translation)) {
+    node->r = ToSmall(X_WC.p);
+  } else {
+    const Matrix3d R_WC = X_WC.q.toRotationMatrix();
+    Vector3d d = ToEigen(node->r) - X_WC.p;
+    for (int k = 0; k < 3; ++k)
+      if (model_.translation[k]) d -= R_WC.col(k) * R_WC.col(k).dot(d);
+    node->r = ToSmall(X_WC.p + d);
+  }
   if (!holds_rotation_) return;
-  Vector3d psi = Vector3d::Zero();
-  if (!All(model_.rotation)) psi = RotationLog(clamp().X.q.conjugate() * ToEigen(node->q));
-  for (int k = 0; k < 3; ++k)
-    if (model_.rotation[k]) psi[k] = 0;
-  Quat<double> q = ToSmall((clamp().X.q * RotationExp(psi)).normalized());
+  Eigen::Quaterniond q_WS = X_WC.q;
+  if (!All(model_.rotation)) {
+    Vector3d psi = RotationLog(X_WC.q.conjugate() * ToEigen(node->q));
+    for (int k = 0; k < 3; ++k)
+      if (model_.rotation[k]) psi[k] = 0;
+    q_WS = X_WC.q * RotationExp(psi);
+  }
+  Quat<double> q = ToSmall(q_WS.normalized());
   // q and -q are the same rotation: stay on the side from which the neighbours were reached.
   if (Dot(q, node->q) < 0) q = {-q.w, -q.x, -q.y, -q.z};
   node->q = q;

@@ -1,6 +1,7 @@
 // What belongs to one lane of the kernel's types, in and out.
 #pragma once
 
+#include "shear_series.h"
 #include "step_chain.h"
 
 namespace cosserat_cable::rod {
@@ -62,6 +63,19 @@ void SetLane(ElementLaw<T>* law, int lane, const ElementLaw<double>& value) {
   SetLane(&law->V_F, lane, value.V_F);
   SetLane(&law->V_M, lane, value.V_M);
   SetLane(&law->gamma0, lane, value.gamma0);
+}
+
+template <class T>
+void SetLane(ShearStep<T>* step, int lane, const ShearStep<double>& value) {
+  SetLane(&step->decay, lane, value.decay);
+  SetLane(&step->weight_old, lane, value.weight_old);
+  SetLane(&step->weight_new, lane, value.weight_new);
+  SetLane(&step->carried, lane, value.carried);
+  SetLane(&step->target_C, lane, value.target_C);
+  SetLane(&step->target_V, lane, value.target_V);
+  SetLane(&step->lambda, lane, value.lambda);
+  SetLane(&step->eta_GA, lane, value.eta_GA);
+  SetLane(&step->eta_B, lane, value.eta_B);
 }
 
 template <class T>

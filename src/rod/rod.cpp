@@ -92,7 +92,9 @@ SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load)
   StepChain<LanePair>& chain = *m.pair.chain;
   const StepCoefficients c(dt);
   m.BeginStep(c, a, b);
-  m.FillChain(0, &chain);
+  m.FillChain(0, &chain, &m.pair.shear);
+  OffsetShear(m.pair.shear, &chain);
+  m.AddBranches(0, &chain);
   const RodState state = m.State();
   const RodState halves[] = {state, state};
   rod::Predict(c, halves, &chain);
@@ -103,7 +105,8 @@ SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load)
     m.TakeBackStep();
     return step.report;
   }
-  m.TakeStep(chain, 0);
+  CommitShear(chain, &m.pair.shear);
+  m.TakeStep(chain, m.pair.shear, 0);
   const RodState* accepting[] = {&state, &state};
   Accept(c, chain, accepting);
   m.AccountForStep(dt, step.load_power);

@@ -41,11 +41,16 @@ struct RodBatch::ImplInLanes : Impl {
         steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
         rod.BeginStep(c, *drives[l].a, *drives[l].b);
       }
-      rod.FillChain(l, &chain);
+      rod.FillChain(l, &chain, &shear);
     }
+    OffsetShear(shear, &chain);
+    for (int l = 0; l < count; ++l) OfLane(l).AddBranches(l, &chain);
     Predict(c, states, &chain);
     for (int l = 0; l < kLanes; ++l) OfLane(l).HoldInChain(l, &chain);
     SolveStep(c, &chain, steps);
+    for (int l = 0; l < kLanes; ++l)
+      if (!steps[l].report.converged) shear.history[l] = nullptr;
+    CommitShear(chain, &shear);
     const RodState* accepting[kLanes] = {};
     for (int l = 0; l < count; ++l) {
       reports[l] = steps[l].report;
@@ -53,7 +58,7 @@ struct RodBatch::ImplInLanes : Impl {
         if (steps[l].active) OfLane(l).TakeBackStep();
         continue;
       }
-      OfLane(l).TakeStep(chain, l);
+      OfLane(l).TakeStep(chain, shear, l);
       accepting[l] = &states[l];
     }
     Accept(c, chain, accepting);
@@ -64,6 +69,7 @@ struct RodBatch::ImplInLanes : Impl {
 
   std::vector<Rod*> rods;
   StepChain<T> chain;
+  ShearLanes<T> shear;
   std::vector<SolveReport> reports;
 };
 

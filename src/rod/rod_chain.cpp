@@ -9,14 +9,6 @@ namespace cosserat_cable::rod {
 void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b) {
   if (!energy.open()) energy.Open({EndPower(), 0, 0}, StoredEnergy());
   next_law_ = LawOfStep(c.dt);
-  const V3 unbend = -Scale(next_law_.C_M, ToSmall(model.section.kappa0));
-  for (int e = 0; e < model.elements; ++e) {
-    next_offsets_[e] = {{shear1.Offset(shear[e][0]), shear2.Offset(shear[e][1]), 0.0}, unbend};
-    if (branches.empty()) continue;
-    const SectionValue more = branches.Offset(e);
-    next_offsets_[e].F += ToSmall(more.F);
-    next_offsets_[e].M += ToSmall(more.M);
-  }
   ends_before_ = ends;
   ends.a.MoveTo(a, c);
   ends.b.MoveTo(b, c);
@@ -38,18 +30,43 @@ void Rod::Impl::FillMasses(int rod_lane, const ChainLayout& layout,
 }
 
 template <class T>
-void Rod::Impl::FillChain(int rod_lane, StepChain<T>* chain) const {
+void Rod::Impl::FillChain(int rod_lane, StepChain<T>* chain, ShearLanes<T>* shear_lanes) {
   const ChainLayout& layout = chain->layout;
-  const int end = layout.chain_elements;
+  const ShearStep<double> steps[] = {shear1.step(), shear2.step()};
+  const V3 unbend = -Scale(next_law_.C_M, ToSmall(model.section.kappa0));
   for (int lane = 0; lane < kLaneCount<T>; ++lane) {
     if (!layout.halves && lane != rod_lane) continue;
     const bool backwards = layout.halves && lane == 1;
     SetLane(&chain->gravity, lane, w.gravity);
     SetLane(&chain->law, lane, next_law_);
     if (backwards) SetLane(&chain->law.gamma0, lane, -next_law_.gamma0);
-
+    for (int k = 0; k < 2; ++k) SetLane(&shear_lanes->axis[k], lane, steps[k]);
+    SetLane(&shear_lanes->unbend, lane, unbend);
+    SetLane(&shear_lanes->gamma0, lane, next_law_.gamma0);
+    SetLane(&shear_lanes->per_length, lane, (backwards ? -1 : 1) / h);
+    SetLane(&shear_lanes->forwards, lane, backwards ? -1.0 : 1.0);
+    shear_lanes->history[lane] = shear.data();
+    shear_lanes->offsets[lane] = next_offsets_.data();
     if (!joints.empty()) FillJoints(lane, chain);
-    for (int k = 0; k < end; ++k) {
+  }
+}
+
+template <class T>
+void Rod::Impl::AddBranches(int rod_lane, StepChain<T>* chain) {
+  if (branches.empty()) return;
+  const ChainLayout& layout = chain->layout;
+  const V3 unbend = -Scale(next_law_.C_M, ToSmall(model.section.kappa0));
+  for (int e = 0; e < model.elements; ++e) {
+    const SectionValue more = branches.Offset(e);
+    ElementOffset<double>& offset = next_offsets_[e];
+    offset.F += ToSmall(more.F);
+    offset.F.z = more.F.z();
+    offset.M = unbend + ToSmall(more.M);
+  }
+  for (int lane = 0; lane < kLaneCount<T>; ++lane) {
+    if (!layout.halves && lane != rod_lane) continue;
+    const bool backwards = layout.halves && lane == 1;
+    for (int k = 0; k < layout.chain_elements; ++k) {
       const ElementOffset<double>& offset = next_offsets_[std::max(0, layout.ElementAt(k, lane))];
       SetLane(&chain->offsets[k].F, lane, backwards ? -offset.F : offset.F);
       SetLane(&chain->offsets[k].M, lane, backwards ? -offset.M : offset.M);
@@ -121,7 +138,8 @@ double Rod::Impl::CommitBranches(const StepChain<T>& chain, int lane, double per
 }
 
 template <class T>
-void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
+void Rod::Impl::TakeStep(const StepChain<T>& chain, const ShearLanes<T>& shear_lanes,
+                         int rod_lane) {
   const ChainLayout& layout = chain.layout;
   const ChainLayout::Place front = layout.OfNode(0, rod_lane);
   const ChainLayout::Place back = layout.OfNode(model.elements, rod_lane);
@@ -132,30 +150,12 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
       missing_a[k] += GetLane(chain.load_rhs[front.entry][k], front.lane);
       missing_b[k] += GetLane(chain.load_rhs[back.entry][k], back.lane);
     }
-  // Nothing written below is part of these.
-  const ShearSeries series1 = shear1, series2 = shear2;
-  const double one_over_h = 1 / h;
-  const V3 gamma0 = next_law_.gamma0;
   double dissipation = 0;
   for (int lane = 0; lane < kLaneCount<T>; ++lane) {
     if (!layout.halves && lane != rod_lane) continue;
-    const bool backwards = layout.halves && lane == 1;
-    const double per_length = backwards ? -one_over_h : one_over_h;
-    const int padding = lane == 0 ? layout.padding : 0;
-    double in_shear = 0;
-    for (int k = padding; k < layout.chain_elements; ++k) {
-      const ChainStrain<T>& strain = chain.strains[k];
-      ShearHistory& history = shear[layout.ElementAt(k, lane)];
-      const double rate1 = per_length * GetLane(strain.u_rate.x, lane);
-      const double rate2 = per_length * GetLane(strain.u_rate.y, lane);
-      history = {
-          series1.Commit(history[0], per_length * GetLane(strain.u.x, lane) - gamma0.x, rate1),
-          series2.Commit(history[1], per_length * GetLane(strain.u.y, lane) - gamma0.y, rate2)};
-      in_shear +=
-          series1.DissipationRate(history[0], rate1) + series2.DissipationRate(history[1], rate2);
-    }
-    dissipation += GetLane(chain.dissipation, lane) + h * in_shear;
-    if (!branches.empty()) dissipation += h * CommitBranches(chain, lane, per_length);
+    dissipation += GetLane(chain.dissipation, lane) + h * GetLane(shear_lanes.dissipation, lane);
+    if (!branches.empty())
+      dissipation += h * CommitBranches(chain, lane, GetLane(shear_lanes.per_length, lane));
   }
   dissipation_rate_ = dissipation;
   law = next_law_;
@@ -165,9 +165,10 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
 
 #define COSSERAT_CABLE_INSTANTIATE(T)                                                            \
   template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<T>>*) const; \
-  template void Rod::Impl::FillChain(int, StepChain<T>*) const;                                  \
+  template void Rod::Impl::FillChain(int, StepChain<T>*, ShearLanes<T>*);                        \
+  template void Rod::Impl::AddBranches(int, StepChain<T>*);                                      \
   template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
-  template void Rod::Impl::TakeStep(const StepChain<T>&, int);
+  template void Rod::Impl::TakeStep(const StepChain<T>&, const ShearLanes<T>&, int);
 COSSERAT_CABLE_INSTANTIATE(WideLanes)
 COSSERAT_CABLE_INSTANTIATE(Lanes)
 COSSERAT_CABLE_INSTANTIATE(LanePair)

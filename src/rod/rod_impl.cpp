@@ -139,7 +139,7 @@ void Rod::Impl::TakeRest() {
     const ElementStrain strain = StrainOf(stress_[e]);
     shear[e] = {shear1.Rest(strain.gamma.x()), shear2.Rest(strain.gamma.y())};
     branches.Rest(e, strain);
-    offsets[e] = {V3{}, unbend};
+    offsets[e] = next_offsets_[e] = {V3{}, unbend};
   }
   stress_known_ = true;
   dissipation_rate_ = 0;

@@ -10,7 +10,7 @@
 #include "end_part.h"
 #include "energy_book.h"
 #include "section_branches.h"
-#include "shear_series.h"
+#include "shear_lanes.h"
 #include "step_workspace.h"
 #include "time_step.h"
 
@@ -25,6 +25,7 @@ struct PairMemory {
   PairMemory(const PairMemory&) {}
   PairMemory& operator=(const PairMemory&) { return *this; }
   std::unique_ptr<StepChain<LanePair>> chain;
+  ShearLanes<LanePair> shear;
 };
 
 struct Rod::Impl {
@@ -39,7 +40,6 @@ struct Rod::Impl {
   StepWorkspace<double> w;  // `node`, `rate` and `algorithm` are the state
 
   // The rest of the state, by element.
-  using ShearHistory = std::array<ShearSeries::History, 2>;
   std::vector<ShearHistory> shear;
   // With what law and offsets the elements' stresses follow from the state.
   ElementLaw<double> law;
@@ -69,13 +69,16 @@ struct Rod::Impl {
   void FillMasses(int lane, const ChainLayout& layout, std::vector<NodeMass<T>>* masses) const;
   /// What a chain needs of the rod in a step besides its state, into a lane, or into both halves.
   template <class T>
-  void FillChain(int lane, StepChain<T>* chain) const;
+  void FillChain(int lane, StepChain<T>* chain, ShearLanes<T>* shear_lanes);
+  /// What the branches add to the offsets of the chain.
+  template <class T>
+  void AddBranches(int lane, StepChain<T>* chain);
   /// The clamped ends into the chain's first iterate.
   template <class T>
   void HoldInChain(int lane, StepChain<T>* chain) const;
   /// Takes over what a chain found besides the state: internal variables and end forces.
   template <class T>
-  void TakeStep(const StepChain<T>& chain, int lane);
+  void TakeStep(const StepChain<T>& chain, const ShearLanes<T>& shear_lanes, int lane);
   /// After a step of `dt` [s] whose state is in place.
   void AccountForStep(double dt, double load_power);
   /// The equilibrium in `trial` becomes what stresses, end forces and internal variables are of.

@@ -12,12 +12,47 @@
 // step, which is second order, and stable however stiff (lambda is infinite without damping).
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <limits>
 
 #include "dynamic_modulus.h"
 
 namespace cosserat_cable::rod {
+
+/// State of an element in one direction; in lanes, of one of each rod.
+template <class T>
+struct ShearHistoryOf {
+  T g1{};  ///< shear of the section proper [1]
+  T G{};   ///< what it tends to [1]
+};
+
+/// Of an element, along a1 and a2.
+using ShearHistory = std::array<ShearHistoryOf<double>, 2>;
+
+/// The law over one step, for any number of rods side by side.
+template <class T>
+struct ShearStep {
+  T decay, weight_old, weight_new;  // of g1, and of what it tends to at the step's start and end
+  T carried;                        // force by what is carried over of g1 [N]
+  T target_C, target_V;             // G by Gamma [1], by dGamma/dt [s]
+  T lambda;                         // [1/s]; 0 without damping, where it is not asked for
+  T eta_GA, eta_B;                  // [N s]
+
+  T Carry(const ShearHistoryOf<T>& past) const { return decay * past.g1 + weight_old * past.G; }
+  T Offset(const ShearHistoryOf<T>& past) const { return carried * Carry(past); }
+  /// The state at the end of the step.
+  ShearHistoryOf<T> Commit(const ShearHistoryOf<T>& past, const T& gamma,
+                           const T& gamma_dot) const {
+    const T G = target_C * gamma + target_V * gamma_dot;
+    return {Carry(past) + weight_new * G, G};
+  }
+  /// Dissipated per length [W/m].
+  T DissipationRate(const ShearHistoryOf<T>& now, const T& gamma_dot) const {
+    const T g1_dot = lambda * (now.G - now.g1), g2_dot = gamma_dot - g1_dot;
+    return eta_GA * g1_dot * g1_dot + eta_B * g2_dot * g2_dot;
+  }
+};
 
 class ShearSeries {
  public:
@@ -33,24 +68,13 @@ class ShearSeries {
     viscous_ = eta > 0 ? eta_GA / eta * sum_ : 0.0;
   }
 
-  /// State of one element in one direction.
-  struct History {
-    double g1 = 0;  ///< shear of the section proper [1]
-    double G = 0;   ///< what it tends to [1]
-  };
+  using History = ShearHistoryOf<double>;
 
   /// Stored per length [J/m] under the whole shear `gamma`.
   double Energy(const History& now, double gamma) const {
     const double g2 = gamma - now.g1;
     return 0.5 * (GA_ * now.g1 * now.g1 + (sum_ - GA_) * g2 * g2);
   }
-  /// Dissipated per length [W/m].
-  double DissipationRate(const History& now, double gamma_dot) const {
-    if (eta_GA_ + eta_B_ <= 0) return 0;
-    const double g1_dot = lambda_ * (now.G - now.g1), g2_dot = gamma_dot - g1_dot;
-    return eta_GA_ * g1_dot * g1_dot + eta_B_ * g2_dot * g2_dot;
-  }
-
   double static_stiffness() const { return GA_ * target_C_; }  ///< [N]
 
   /// Q by Gamma for motion as exp(lambda t), (GA + lambda eta_GA)(B + lambda eta_B)/(GA + B +
@@ -67,6 +91,8 @@ class ShearSeries {
 
   /// The law over one step of `dt` [s]: Q = offset + C Gamma + V dGamma/dt.
   void BeginStep(double dt) {
+    if (dt == dt_) return;
+    dt_ = dt;
     const double x = lambda_ * dt;
     decay_ = std::exp(-x);
     if (x < kSeriesBelow) {
@@ -81,22 +107,27 @@ class ShearSeries {
   }
   double C() const { return stiffness_ * target_C_; }
   double V() const { return stiffness_ * target_V_; }
-  double Offset(const History& past) const { return (GA_ - viscous_) * Carry(past); }
-
-  /// The state at the end of the step begun.
-  History Commit(const History& past, double gamma, double gamma_dot) const {
-    const double G = target_C_ * gamma + target_V_ * gamma_dot;
-    return {Carry(past) + weight_new_ * G, G};
+  ShearStep<double> step() const {
+    const bool damped = eta_GA_ + eta_B_ > 0;
+    return {decay_,
+            weight_old_,
+            weight_new_,
+            GA_ - viscous_,
+            target_C_,
+            target_V_,
+            damped ? lambda_ : 0.0,
+            eta_GA_,
+            eta_B_};
   }
+
   /// The state at rest under a constant shear angle.
   History Rest(double gamma) const { return {target_C_ * gamma, target_C_ * gamma}; }
 
  private:
   static constexpr double kSeriesBelow = 0.01;  // below, four terms are exact to 1e-11
 
-  double Carry(const History& past) const { return decay_ * past.g1 + weight_old_ * past.G; }
-
   double GA_, sum_, eta_GA_, eta_B_, target_C_, target_V_, lambda_, viscous_;
+  double dt_ = 0;  // of the step begun
   double decay_ = 0, weight_old_ = 0, weight_new_ = 1, stiffness_ = 0;
 };
 
