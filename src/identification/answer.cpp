@@ -1,6 +1,7 @@
 #include "answer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <sstream>
 
@@ -36,11 +37,20 @@ const char* ChannelUnit(Quantity quantity) {
   return "";
 }
 
+/// Digits at which a number's standard deviation shows with two.
+int DigitsFor(double value, double sd) {
+  constexpr int kFewest = 4, kMost = 12;
+  if (!(sd > 0) || value == 0) return kFewest;
+  return std::clamp(static_cast<int>(std::ceil(std::log10(std::abs(value) / sd))) + 2, kFewest,
+                    kMost);
+}
+
 bool OfCable(const ParameterEstimate& estimate) {
   return estimate.unknown.kind == Unknown::Kind::kCable;
 }
 
-json ChannelJson(const Channel& channel, const ChannelFit& fit) {
+/// `interval`: between two samples, on average [s]; 0 of a quasi-static record.
+json ChannelJson(const Channel& channel, const ChannelFit& fit, double interval) {
   return {{"column", channel.column},
           {"quantity", ToString(channel.quantity)},
           {"unit", ChannelUnit(channel.quantity)},
@@ -48,6 +58,7 @@ json ChannelJson(const Channel& channel, const ChannelFit& fit) {
           {"sigma_given", fit.sigma_given},
           {"rms", fit.rms},
           {"correlation_samples", fit.correlation_samples},
+          {"correlation_time", interval > 0 ? json(interval * fit.correlation_samples) : json()},
           {"misfit", fit.sigma > 0 ? json(fit.rms / fit.sigma) : json()}};
 }
 
@@ -108,7 +119,11 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
                   {"channels", json::array()}};
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
       const ChannelFit& fit = estimation.experiments[e].channels[c];
-      json channel = ChannelJson(experiment.channels[c], fit);
+      const std::vector<double>& t = experiment.record.t;
+      const double interval = experiment.quasi_static() || t.size() < 2
+                                  ? 0.0
+                                  : (t.back() - t.front()) / static_cast<double>(t.size() - 1);
+      json channel = ChannelJson(experiment.channels[c], fit, interval);
       const std::string name = experiment.name + "/" + experiment.channels[c].column;
       for (const ParameterEstimate& one : estimation.parameters)
         if (one.unknown.name == name + ".offset") channel["offset"] = one.value;
@@ -146,7 +161,9 @@ std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& est
       key = line.substr(begin, colon - begin);
     if (!key.empty() && is_default(key)) continue;
     for (const ParameterEstimate& one : estimation.parameters) {
-      if (!OfCable(one) || (key != one.unknown.name && key != one.unknown.name + "1")) continue;
+      const bool dashpot = one.unknown.name == kEndDamping && key == "clamp_damping";
+      if (!OfCable(one) || (key != one.unknown.name && key != one.unknown.name + "1" && !dashpot))
+        continue;
       line += one.determined
                   ? "  # identified, +- " + FormatRounded(kNormal95 * one.sd, 2) + " (95 %)"
                   : "  # not determined by the data: " + one.reason;
@@ -177,10 +194,12 @@ std::string AnswerTable(const Estimation& estimation) {
   out << line;
   for (const ParameterEstimate& one : estimation.parameters) {
     if (!OfCable(one)) continue;
+    const int digits = DigitsFor(one.value, one.sd);
     if (one.determined)
       std::snprintf(line, sizeof line, "%-22s %13s %13s %13s  %-9s\n", one.unknown.name.c_str(),
-                    FormatRounded(one.value, 5).c_str(), FormatRounded(one.low, 4).c_str(),
-                    FormatRounded(one.high, 4).c_str(), one.unknown.unit.c_str());
+                    FormatRounded(one.value, digits).c_str(),
+                    FormatRounded(one.low, digits).c_str(), FormatRounded(one.high, digits).c_str(),
+                    one.unknown.unit.c_str());
     else
       std::snprintf(line, sizeof line, "%-22s %13s  %s\n", one.unknown.name.c_str(), "undetermined",
                     one.reason.substr(0, 200).c_str());

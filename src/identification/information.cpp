@@ -132,6 +132,7 @@ Information InformationOf(const RecordModel& model, const Eigen::MatrixXd& jacob
 Eigen::MatrixXd CovarianceOf(const Information& information, const std::vector<int>& which) {
   const auto n = information.expected.rows();
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
+  if (which.empty()) return covariance;
   const Eigen::MatrixXd sub = SubCovariance(information, which);
   for (std::size_t i = 0; i < which.size(); ++i)
     for (std::size_t k = 0; k < which.size(); ++k) covariance(which[i], which[k]) = sub(i, k);
