@@ -24,6 +24,9 @@ int main(int argc, char** argv) {
                  "it with the parameters");
   app.add_option("--uncertain-length", options.unknowns.length_sd,
                  "free lengths are wrong by about this [m]: estimate them with the parameters");
+  app.add_flag("--use-damaged", options.use_damaged,
+               "use what is left of records that are clipped, frozen, gappy or shorter than a "
+               "period; otherwise they count for nothing");
   app.add_flag("!--no-end-damping", options.unknowns.end_damping,
                "take the loss D_E at a disc for zero instead of estimating it");
   app.add_flag("!--no-profiles", options.profiles,

@@ -6,6 +6,7 @@
 
 #include "cable_number.h"
 #include "cosserat_cable/input/number_text.h"
+#include "damage.h"
 #include "fit.h"
 #include "information.h"
 #include "noise.h"
@@ -59,9 +60,17 @@ class Work {
   bool Tell(const std::string& what, double part) {
     return !options_.progress || options_.progress(what, part);
   }
+  double SmoothNoise(std::size_t experiment, int column) const {
+    return NoiseOfSmooth(experiments()[experiment].record.values.col(column),
+                         model_.usable()[experiment].col(column));
+  }
+  bool ShownByNone(int unknown) const;
   void GuessNoise();
   bool UpdateNoise();
   bool FitToEnd();
+  void LeaveOut(std::size_t experiment, const std::string& why);
+  void LeaveOutDamaged();
+  void LeaveOutShort();
   void LeaveOutSilent();
   bool Conclude();
   void Report();
@@ -79,16 +88,16 @@ class Work {
 };
 
 void Work::GuessNoise() {
-  for (const Experiment& experiment : experiments()) {
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const Experiment& experiment = experiments()[e];
     Eigen::VectorXd levels(experiment.channels.size());
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
       const int column = static_cast<int>(c);
       const double range = RangeOf(experiment.record.values, column);
       const double floor =
           std::max(kBestChannel * range, std::numeric_limits<double>::min() * 1e10);
-      levels[column] = std::max(experiment.channels[c].sigma.value_or(
-                                    NoiseOfSmooth(experiment.record.values.col(column))),
-                                floor);
+      levels[column] =
+          std::max(experiment.channels[c].sigma.value_or(SmoothNoise(e, column)), floor);
     }
     noise_.push_back(levels);
   }
@@ -140,14 +149,53 @@ bool Work::FitToEnd() {
                                   fit.jacobian.col(i).norm());
     if (round > 0 && !noise_changed && moved < kSettled) break;
   }
+  LeaveOutShort();
   LeaveOutSilent();
   return Conclude();
+}
+
+/// Whether all records that the unknown concerns count for nothing.
+bool Work::ShownByNone(int unknown) const {
+  for (std::size_t e = 0; e < experiments().size(); ++e)
+    if (unknowns_.Concerns(unknown, static_cast<int>(e)) && !model_.IsLeftOut(static_cast<int>(e)))
+      return false;
+  return true;
+}
+
+void Work::LeaveOut(std::size_t experiment, const std::string& why) {
+  model_.LeaveOut(static_cast<int>(experiment));
+  estimation_.warnings.push_back(experiments()[experiment].name + ": " + why);
+}
+
+void Work::LeaveOutDamaged() {
+  if (options_.use_damaged) return;
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const std::string why = DamageOf(experiments()[e].record, model_.usable()[e]);
+    if (!why.empty())
+      LeaveOut(e, why + ": the record counts for nothing (--use-damaged takes what is left of it)");
+  }
+}
+
+void Work::LeaveOutShort() {
+  if (options_.use_damaged) return;
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    Problems problems;
+    const Specimen specimen =
+        unknowns_.MakeSpecimen(static_cast<int>(e), optimum_.values, &problems);
+    const std::vector<double>& t = experiments()[e].record.t;
+    const double period = SlowestPeriod(experiments()[e], specimen.cable);
+    if (model_.IsLeftOut(static_cast<int>(e)) || t.back() - t.front() >= period) continue;
+    LeaveOut(e, "the record of " + FormatRounded(t.back() - t.front()) +
+                    " s is shorter than a period, some " + FormatRounded(period, 2) +
+                    " s, and counts for nothing (--use-damaged takes it)");
+  }
 }
 
 /// Records that the simulation explains no better than a constant does show nothing but noise, and
 /// whatever the search found in them was luck.
 void Work::LeaveOutSilent() {
   for (std::size_t e = 0; e < experiments().size(); ++e) {
+    if (model_.IsLeftOut(static_cast<int>(e))) continue;
     double gain = 0;
     Eigen::Index samples = 0;
     for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c) {
@@ -161,9 +209,7 @@ void Work::LeaveOutSilent() {
       samples += simulated_[e].rows();
     }
     if (gain > kSilentBase + kSilentPerLog * std::log(static_cast<double>(samples))) continue;
-    model_.LeaveOut(static_cast<int>(e));
-    estimation_.warnings.push_back(experiments()[e].name +
-                                   ": the record shows nothing but noise, and counts for nothing");
+    LeaveOut(e, "the record shows nothing but noise, and counts for nothing");
   }
 }
 
@@ -221,8 +267,7 @@ void Work::ReportChannels() {
       channel.sigma_given = experiment.channels[c].sigma.has_value();
       channel.rms = Rms(UsableResiduals(experiment, simulated_[e], model_.usable()[e], column));
       channel.correlation_samples = colours_[e][c].correlation_samples;
-      const double noise =
-          channel.sigma_given ? channel.sigma : NoiseOfSmooth(experiment.record.values.col(column));
+      const double noise = channel.sigma_given ? channel.sigma : SmoothNoise(e, column);
       if (channel.rms > kMisfit * noise)
         estimation_.warnings.push_back(experiment.name + "/" + channel.column + ": what is left, " +
                                        FormatRounded(channel.rms) + ", is " +
@@ -254,6 +299,9 @@ void Work::Report() {
     estimate.value = fitted[i];
     estimate.determined = determination.reasons[i].empty();
     estimate.reason = determination.reasons[i];
+    if (!estimate.determined && ShownByNone(i))
+      estimate.reason = "every record that could show [" + estimate.unknown.name +
+                        "] was left out: see the warnings";
     if (estimate.determined) {
       estimate.sd = sds[i] * estimate.unknown.scale;
       estimate.low = estimate.value - kNormal95 * estimate.sd;
@@ -294,6 +342,7 @@ Estimation Work::Run() {
     }
     guesses.push_back(guess);
   }
+  LeaveOutDamaged();
   const FitProgress early = [&](const std::string& what) { return Tell(what, 0.1); };
   const FitResult start = FitFromAfar(&model_, guesses, noise_, early);
   if (!start.ok) {

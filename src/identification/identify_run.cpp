@@ -58,6 +58,7 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   EstimationOptions estimation_options;
   estimation_options.unknowns = options.unknowns;
   estimation_options.profiles = options.profiles;
+  estimation_options.use_damaged = options.use_damaged;
   Estimation estimation;
   DirectEvaluation direct;
   Plan plan;

@@ -13,17 +13,22 @@ constexpr int kDifference = 6;
 
 }  // namespace
 
-double NoiseOfSmooth(const Eigen::VectorXd& samples) {
+double NoiseOfSmooth(const Eigen::VectorXd& samples, const Eigen::VectorXd& usable) {
   Eigen::VectorXd d = samples;
+  Eigen::VectorXd counts =
+      usable.size() > 0 ? usable : Eigen::VectorXd(Eigen::VectorXd::Ones(samples.size()));
   double gain = 1;  // variance that white noise has after the differences: (2k)!/(k!)^2
   for (int k = 1; k <= kDifference && d.size() > 2; ++k) {
-    d = (d.tail(d.size() - 1) - d.head(d.size() - 1)).eval();
+    const Eigen::Index n = d.size() - 1;
+    d = (d.tail(n) - d.head(n)).eval();
+    counts = counts.tail(n).cwiseProduct(counts.head(n)).eval();
     gain *= 2.0 * (2 * k - 1) / k;
   }
-  if (d.size() == 0) return 0;
+  std::vector<double> size;
+  for (Eigen::Index i = 0; i < d.size(); ++i)
+    if (counts[i] > 0) size.push_back(std::abs(d[i]));
+  if (size.empty()) return 0;
   // The median resists jumps: 0.6745 of a normal distribution's standard deviation.
-  std::vector<double> size(d.data(), d.data() + d.size());
-  for (double& x : size) x = std::abs(x);
   std::nth_element(size.begin(), size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2),
                    size.end());
   return size[size.size() / 2] / 0.6745 / std::sqrt(gain);

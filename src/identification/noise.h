@@ -7,8 +7,10 @@
 namespace cosserat_cable {
 
 /// Standard deviation of the noise of a smooth signal, from differences of high order: what is left
-/// of it where the signal is resolved by its samples, a little too much where it is not.
-double NoiseOfSmooth(const Eigen::VectorXd& samples);
+/// of it where the signal is resolved by its samples, a little too much where it is not. Samples
+/// for which `usable` is zero, where it is given, do not count.
+double NoiseOfSmooth(const Eigen::VectorXd& samples,
+                     const Eigen::VectorXd& usable = Eigen::VectorXd());
 
 /// An autoregressive model of residuals, of the order that Akaike's criterion asks for.
 struct NoiseColour {

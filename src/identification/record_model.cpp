@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 
-#include "cosserat_cable/measurement/sample_runs.h"
 #include "cosserat_cable/rod/rod_batch.h"
+#include "damage.h"
 
 namespace cosserat_cable {
 namespace {
@@ -42,16 +42,6 @@ double StepFor(const Record& record) {
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
   return std::clamp(kStepOfInterval * *middle, kSmallestStep, kLargestStep);
-}
-
-/// One for what a sensor measured, zero for stretches in which it stood still or was at its limit.
-Eigen::MatrixXd UsableSamples(const Record& record) {
-  Eigen::MatrixXd usable = Eigen::MatrixXd::Ones(record.values.rows(), record.values.cols());
-  if (record.quasi_static) return usable;
-  for (Eigen::Index c = 0; c < usable.cols(); ++c)
-    for (const auto& runs : {FrozenRuns(record.values.col(c)), ClippedRuns(record.values.col(c))})
-      for (const SampleRun& run : runs) usable.col(c).segment(run.first, run.count).setZero();
-  return usable;
 }
 
 /// What the steps of these options do to the records: from runs 1.5 and 2 times as fine, by the

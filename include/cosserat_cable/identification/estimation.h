@@ -18,6 +18,9 @@ using EstimationProgress = std::function<bool(const std::string& what, double pa
 struct EstimationOptions {
   UnknownOptions unknowns;
   bool profiles = true;
+  /// Use what is left of records that are clipped, frozen or have gaps, and records shorter than a
+  /// period; otherwise they count for nothing.
+  bool use_damaged = false;
   /// Values to begin from besides the set's own, by name (the direct evaluation's).
   std::vector<std::pair<std::string, double>> guesses;
   EstimationProgress progress;

@@ -14,7 +14,8 @@ struct IdentifyRunOptions {
   std::string output;  ///< folder
   UnknownOptions unknowns;
   bool profiles = true;
-  bool direct = true;  ///< the source paper's evaluation beside the fit
+  bool use_damaged = false;  ///< see EstimationOptions
+  bool direct = true;        ///< the source paper's evaluation beside the fit
   bool plan = false;
   PlanOptions plan_options;
   bool report = true;

@@ -53,6 +53,9 @@ class RecordModel {
   const Records& usable() const { return usable_; }
   /// From now on the experiment's record counts for nothing.
   void LeaveOut(int experiment) { usable_[static_cast<std::size_t>(experiment)].setZero(); }
+  bool IsLeftOut(int experiment) const {
+    return usable_[static_cast<std::size_t>(experiment)].isZero();
+  }
 
   /// From now on the experiment is taken not to show the unknown.
   void Ignore(int unknown, int experiment) { ignored_.insert({unknown, experiment}); }
