@@ -20,8 +20,6 @@ constexpr int kMaxRounds = 4;
 // A further round of steps, noise and fit is worth it where values moved by more than this part of
 // their standard deviation, or a noise by this part.
 constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
-// No channel is taken to be better than this part of its range: simulations are not.
-constexpr double kBestChannel = 1e-7;
 // What the largest of a record's frequencies gains by chance, in its sum of squares by the noise's,
 // grows as twice the logarithm of their number; twice that, and a base for short records.
 constexpr double kSilentBase = 20, kSilentPerLog = 4;
@@ -65,7 +63,6 @@ class Work {
                          model_.usable()[experiment].col(column));
   }
   bool ShownByNone(int unknown) const;
-  void GuessNoise();
   bool UpdateNoise();
   bool FitToEnd();
   void LeaveOut(std::size_t experiment, const std::string& why);
@@ -86,22 +83,6 @@ class Work {
   std::vector<std::vector<NoiseColour>> colours_;
   Estimation estimation_;
 };
-
-void Work::GuessNoise() {
-  for (std::size_t e = 0; e < experiments().size(); ++e) {
-    const Experiment& experiment = experiments()[e];
-    Eigen::VectorXd levels(experiment.channels.size());
-    for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
-      const int column = static_cast<int>(c);
-      const double range = RangeOf(experiment.record.values, column);
-      const double floor =
-          std::max(kBestChannel * range, std::numeric_limits<double>::min() * 1e10);
-      levels[column] =
-          std::max(experiment.channels[c].sigma.value_or(SmoothNoise(e, column)), floor);
-    }
-    noise_.push_back(levels);
-  }
-}
 
 /// Where the noise is not given, the residuals say what it is. False: it had been right.
 bool Work::UpdateNoise() {
@@ -331,7 +312,7 @@ void Work::Report() {
 
 Estimation Work::Run() {
   const auto begin = std::chrono::steady_clock::now();
-  GuessNoise();
+  noise_ = GuessNoise(model_);
   std::vector<Eigen::VectorXd> guesses;
   if (!options_.guesses.empty()) {
     Eigen::VectorXd guess = unknowns_.StartValues();

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+#include "noise.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -130,6 +132,24 @@ std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
 }
 
 }  // namespace
+
+NoiseLevels GuessNoise(const RecordModel& model) {
+  NoiseLevels noise;
+  for (const Experiment& experiment : model.unknowns().set().experiments) {
+    const Eigen::MatrixXd& values = experiment.record.values;
+    const Eigen::MatrixXd& usable = model.usable()[noise.size()];
+    Eigen::VectorXd levels(values.cols());
+    for (Eigen::Index c = 0; c < values.cols(); ++c) {
+      const double range = values.col(c).maxCoeff() - values.col(c).minCoeff();
+      const double floor =
+          std::max(kBestChannel * range, std::numeric_limits<double>::min() * 1e10);
+      const auto& sigma = experiment.channels[static_cast<std::size_t>(c)].sigma;
+      levels[c] = std::max(sigma ? *sigma : NoiseOfSmooth(values.col(c), usable.col(c)), floor);
+    }
+    noise.push_back(levels);
+  }
+  return noise;
+}
 
 Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorXd& values,
                                   const Records& simulated, const NoiseLevels& noise) {

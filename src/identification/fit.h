@@ -16,6 +16,12 @@ using NoiseLevels = std::vector<Eigen::VectorXd>;
 /// Called with what is going on; false stops the fit.
 using FitProgress = std::function<bool(const std::string& what)>;
 
+/// No channel is taken to be better than this part of its range: simulations are not.
+inline constexpr double kBestChannel = 1e-7;
+
+/// Before any fit: as the set gives it, otherwise from how rough the records are.
+NoiseLevels GuessNoise(const RecordModel& model);
+
 /// Residuals (measured less simulated, by the noise) one below the other: experiment by experiment,
 /// channel by channel, then what is known beforehand.
 Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorXd& values,

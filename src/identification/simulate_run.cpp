@@ -19,6 +19,7 @@
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/experiment_simulation.h"
 #include "cosserat_cable/measurement/record_csv.h"
+#include "start_estimate.h"
 
 namespace cosserat_cable {
 namespace {
@@ -77,10 +78,14 @@ void Simulate(std::vector<Job>* jobs, bool plain) {
   });
 }
 
-/// Rms of simulated less measured, by channel.
+/// Rms of simulated less measured, by channel; without the mean where the channel's offset is
+/// unknown.
 nlohmann::json RmsOf(const Job& job) {
   nlohmann::json rms;
-  const Eigen::MatrixXd difference = job.result.record.values - job.experiment->record.values;
+  Eigen::MatrixXd difference = job.result.record.values - job.experiment->record.values;
+  for (Eigen::Index c = 0; c < difference.cols(); ++c)
+    if (job.experiment->channels[static_cast<std::size_t>(c)].unknown_offset)
+      difference.col(c).array() -= difference.col(c).mean();
   for (Eigen::Index c = 0; c < difference.cols(); ++c)
     rms[job.experiment->channels[static_cast<std::size_t>(c)].column] =
         std::sqrt(difference.col(c).squaredNorm() / static_cast<double>(difference.rows()));
@@ -102,7 +107,15 @@ ExitCode RunSimulate(const SimulateRunOptions& options) {
       CableKeys keys = options.cable.empty() ? SpecimenKeys(set, experiment)
                                              : SpecimenKeys(set, experiment, file);
       if (experiment.quasi_static()) keys = WithoutUnknownDamping(keys);
-      Job job{&experiment, MakeSpecimen(keys, experiment, &problems), {}, {}, false};
+      const bool swinging = experiment.start.kind == StartCondition::Kind::kUnknown;
+      Job job{&experiment,
+              swinging ? EstimateStart(experiment, keys, &problems)
+                       : MakeSpecimen(keys, experiment, &problems),
+              {},
+              {},
+              false};
+      if (swinging)
+        std::cerr << experiment.name << ": its start is estimated from the record's beginning\n";
       job.options.dt = options.dt;
       job.options.elements = options.elements ? options.elements : job.specimen.cable.elements;
       job.options.elements += job.options.elements % 2;
