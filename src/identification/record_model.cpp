@@ -17,8 +17,7 @@ constexpr int kElements = 20;
 // Of the samples' median interval, within bounds: a record shows nothing faster than its samples.
 constexpr double kStepOfInterval = 0.25, kSmallestStep = 1e-3, kLargestStep = 5e-3;  // [s]
 constexpr double kFinest = 1e-4;                                                     // [s]
-constexpr double kTooFar =
-    0.05;  // correction in parts of a channel's range that asks for finer steps
+constexpr double kTooFar = 0.05;  // RelativeDifference that asks for finer steps
 // In parts of an unknown's scale. Above what Newton's tolerance leaves, below what turns the phase
 // at a record's end by a radian.
 constexpr double kForwardStep = 1e-4;
@@ -28,10 +27,6 @@ Eigen::VectorXd Moved(const Eigen::VectorXd& values, int unknown, double by) {
   Eigen::VectorXd moved = values;
   moved[unknown] += by;
   return moved;
-}
-
-double Range(const Eigen::MatrixXd& values, int column) {
-  return values.col(column).maxCoeff() - values.col(column).minCoeff();
 }
 
 double StepFor(const Record& record) {
@@ -253,11 +248,8 @@ double RecordModel::Refine(const Eigen::VectorXd& values) {
     for (SimulationOptions options = options_[e];; options.dt /= 2, options.elements *= 2) {
       std::optional<Eigen::MatrixXd> correction = CorrectionOf(experiments[e], specimen, options);
       if (!correction) return;
-      double size = 0;
-      for (int c = 0; c < correction->cols(); ++c) {
-        const double range = Range(experiments[e].record.values, c);
-        if (range > 0) size = std::max(size, correction->col(c).cwiseAbs().maxCoeff() / range);
-      }
+      const double size = RelativeDifference(experiments[e], specimen.cable.length, *correction,
+                                             experiments[e].record.values);
       options_[e] = options;
       correction_[e] = std::move(*correction);
       largest[e] = size;

@@ -166,6 +166,30 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
   return results;
 }
 
+double RelativeDifference(const Experiment& experiment, double length,
+                          const Eigen::MatrixXd& difference, const Eigen::MatrixXd& values) {
+  // A channel that hardly moves beside others of its kind is not measured by itself.
+  constexpr double kPartOfWidest = 0.1;
+  const auto range = [&](Eigen::Index c) {
+    return values.col(c).maxCoeff() - values.col(c).minCoeff();
+  };
+  double largest = 0;
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const Quantity quantity = experiment.channels[static_cast<std::size_t>(c)].quantity;
+    double scale = range(c);
+    for (Eigen::Index k = 0; k < values.cols(); ++k)
+      if (experiment.channels[static_cast<std::size_t>(k)].quantity == quantity)
+        scale = std::max(scale, kPartOfWidest * range(k));
+    const double mean = difference.col(c).mean();
+    const double static_scale =
+        quantity == Quantity::kPosition ? length : values.col(c).cwiseAbs().maxCoeff();
+    if (scale > 0)
+      largest = std::max(largest, (difference.col(c).array() - mean).abs().maxCoeff() / scale);
+    if (static_scale > 0) largest = std::max(largest, std::abs(mean) / static_scale);
+  }
+  return largest;
+}
+
 RefinedRecord SimulateRefined(const Experiment& experiment, const Specimen& specimen,
                               const SimulationOptions& options) {
   SimulationOptions coarse = options;
@@ -181,13 +205,7 @@ RefinedRecord SimulateRefined(const Experiment& experiment, const Specimen& spec
   }
   const Eigen::MatrixXd& fine = refined.record.values;
   const Eigen::MatrixXd correction = (fine - other.values) / 3;
-  for (int c = 0; c < fine.cols(); ++c) {
-    const double range = fine.col(c).maxCoeff() - fine.col(c).minCoeff();
-    const double scale = std::max(range, fine.col(c).cwiseAbs().maxCoeff() * 1e-9);
-    if (scale > 0)
-      refined.discretisation =
-          std::max(refined.discretisation, correction.col(c).cwiseAbs().maxCoeff() / scale);
-  }
+  refined.discretisation = RelativeDifference(experiment, specimen.cable.length, correction, fine);
   refined.extrapolated = refined.discretisation < kNearEnough;
   if (refined.extrapolated) refined.record.values += correction;
   return refined;

@@ -30,12 +30,18 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
                                                 const std::vector<Specimen>& specimens,
                                                 const SimulationOptions& options);
 
+/// How far two simulations of an experiment are apart: the largest deviation of their difference
+/// from its mean, in parts of the channel's range (a tenth of the widest range of its kind at
+/// least), or the mean itself in parts of the cable's length (of the largest value, where it is not
+/// a position); over the channels.
+double RelativeDifference(const Experiment& experiment, double length,
+                          const Eigen::MatrixXd& difference, const Eigen::MatrixXd& values);
+
 /// An estimate free of the second-order errors of space and time, by Richardson's extrapolation
 /// from a run with half the elements and twice the step.
 struct RefinedRecord {
   SimulatedRecord record;
-  /// Largest difference of the extrapolated record from the finer run, relative to the channel's
-  /// range, over the channels: what the finer run is wrong by.
+  /// RelativeDifference of the extrapolated record from the finer run: what that is wrong by.
   double discretisation = 0;
   /// Whether the two runs were near enough for an extrapolation; otherwise the record is the finer
   /// run's.
