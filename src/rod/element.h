@@ -39,6 +39,12 @@ struct ElementOffset {
   Vec3<T> F, M;  ///< [N], [N m]
 };
 
+/// The part of the offset that shear's internal variables make, along a1 and a2 [N].
+template <class T>
+struct ShearOffset {
+  T x, y;
+};
+
 template <class T>
 struct Node {
   Vec3<T> r;      ///< position [m], world
@@ -73,6 +79,13 @@ struct ElementState {
   Vec3<T> u_rate, theta_rate;  ///< h dGamma/dt [m/s], h dK/dt [rad/s]
   Vec3<T> n, m;                ///< force [N] and moment [N m] in the midpoint's frame
 };
+
+template <class To, class From>
+ElementState<To> Converted(const ElementState<From>& e) {
+  return {Converted<To>(e.Rm),    Converted<To>(e.u),     Converted<To>(e.theta),
+          Converted<To>(e.tau),   Converted<To>(e.c),     Converted<To>(e.u_rate),
+          Converted<To>(e.theta_rate), Converted<To>(e.n), Converted<To>(e.m)};
+}
 
 /// Modified Rodrigues vector x of q1* q2 and the midpoint's frame.
 template <class T>
@@ -126,6 +139,16 @@ template <class T>
 void EvaluateStress(const ScaledLaw<T>& law, const ElementOffset<T>& offset, ElementState<T>* e) {
   e->n = (offset.F + law.unstrained_F) + Scale(law.C_F, e->u) + Scale(law.V_F, e->u_rate);
   e->m = offset.M + Scale(law.C_M, e->theta) + Scale(law.V_M, e->theta_rate);
+}
+
+/// The same where all that the internal variables make is shear.
+template <class T>
+void EvaluateStress(const ScaledLaw<T>& law, const ShearOffset<T>& offset, const Vec3<T>& unbend,
+                    ElementState<T>* e) {
+  e->n = law.unstrained_F + Scale(law.C_F, e->u) + Scale(law.V_F, e->u_rate);
+  e->n.x += offset.x;
+  e->n.y += offset.y;
+  e->m = unbend + Scale(law.C_M, e->theta) + Scale(law.V_M, e->theta_rate);
 }
 
 /// Generalised forces on the two nodes: what the element adds to M dv/dt + ... = 0.

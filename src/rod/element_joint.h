@@ -12,6 +12,11 @@ struct ElementJoint {
   Quat<T> first, second;
 };
 
+template <class To, class From>
+ElementJoint<To> Converted(const ElementJoint<From>& joint) {
+  return {Converted<To>(joint.first), Converted<To>(joint.second)};
+}
+
 /// The node as the element sees it.
 template <class T>
 Node<T> SeenThrough(const Quat<T>& turn, const Node<T>& node) {

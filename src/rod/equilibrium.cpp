@@ -139,6 +139,7 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
 
 SolveReport Rod::Equilibrate(const Load* load) {
   Impl& m = *impl_;
+  m.MoveOut();
   for (NodeState& n : m.w.node) n.v = n.omega = V3{};
   for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
   m.w.trial = m.w.node;

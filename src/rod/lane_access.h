@@ -1,7 +1,6 @@
 // What belongs to one lane of the kernel's types, in and out.
 #pragma once
 
-#include "shear_series.h"
 #include "step_chain.h"
 
 namespace cosserat_cable::rod {
@@ -82,6 +81,19 @@ template <class T>
 Vec6<double> GetLane(const Vec6<T>& v, int lane) {
   return {{GetLane(v[0], lane), GetLane(v[1], lane), GetLane(v[2], lane), GetLane(v[3], lane),
            GetLane(v[4], lane), GetLane(v[5], lane)}};
+}
+
+template <class T>
+ShearHistory GetLane(const ChainShear<T>& shear, int lane) {
+  return {{{GetLane(shear.x.g1, lane), GetLane(shear.x.G, lane)},
+           {GetLane(shear.y.g1, lane), GetLane(shear.y.G, lane)}}};
+}
+template <class T>
+void SetLane(ChainShear<T>* shear, int lane, const ShearHistory& value) {
+  SetLane(&shear->x.g1, lane, value[0].g1);
+  SetLane(&shear->x.G, lane, value[0].G);
+  SetLane(&shear->y.g1, lane, value[1].g1);
+  SetLane(&shear->y.G, lane, value[1].G);
 }
 
 }  // namespace cosserat_cable::rod

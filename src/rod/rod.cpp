@@ -17,7 +17,10 @@ Wrench ClampWrench(const Vec6<double>& missing, const Eigen::Quaterniond& q) {
 
 Rod::Rod(const RodModel& model) : impl_(std::make_unique<Impl>(model)) {}
 Rod::~Rod() = default;
-Rod::Rod(const Rod& other) : Centreline(other), impl_(std::make_unique<Impl>(*other.impl_)) {}
+Rod::Rod(const Rod& other) : Centreline(other) {
+  other.impl_->Fetch();
+  impl_ = std::make_unique<Impl>(*other.impl_);
+}
 Rod::Rod(Rod&&) noexcept = default;
 Rod& Rod::operator=(Rod&&) noexcept = default;
 
@@ -26,6 +29,7 @@ int Rod::elements() const { return impl_->model.elements; }
 
 void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   Impl& m = *impl_;
+  m.MoveOut();
   for (int i = 0; i < m.w.count; ++i) {
     NodeState& n = m.w.node[i];
     n = NodeState{ToSmall(nodes[i].p), Normalized(ToSmall(nodes[i].q)), V3{}, V3{}};
@@ -47,6 +51,7 @@ void Rod::SetClamps(const Pose& a, const Pose& b) {
 
 void Rod::SetVelocities(const std::vector<Eigen::Vector3d>& v,
                         const std::vector<Eigen::Vector3d>& omega) {
+  impl_->MoveOut();
   for (int i = impl_->first_free(); i <= impl_->last_free(); ++i) {
     impl_->w.node[i].v = ToSmall(v[i]);
     impl_->w.node[i].omega = ToSmall(omega[i]);
@@ -54,6 +59,7 @@ void Rod::SetVelocities(const std::vector<Eigen::Vector3d>& v,
 }
 
 void Rod::AddRigidMotion(const Motion& frame) {
+  impl_->MoveOut();
   const Eigen::Matrix3d R = frame.X.q.toRotationMatrix();
   const Eigen::Vector3d omega = R * frame.omega, alpha = R * frame.alpha;
   const auto add = [&](const Pose& at, Motion* motion) {
@@ -82,55 +88,49 @@ void Rod::AddRigidMotion(const Motion& frame) {
 }
 
 SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load) {
-  Impl& m = *impl_;
-  if (!m.pair.chain) {
-    m.pair.chain = std::make_unique<StepChain<LanePair>>(ChainLayout::Halves(m.model.elements));
-    m.pair.chain->SetHeld(m.model.a.clamped(), m.model.b.clamped());
-    m.FillMasses(0, m.pair.chain->layout, &m.pair.chain->masses);
-    if (!m.joints.empty()) m.pair.chain->SetJointed();
-  }
-  StepChain<LanePair>& chain = *m.pair.chain;
-  const StepCoefficients c(dt);
-  m.BeginStep(c, a, b);
-  m.FillChain(0, &chain, &m.pair.shear);
-  OffsetShear(m.pair.shear, &chain);
-  m.AddBranches(0, &chain);
-  const RodState state = m.State();
-  const RodState halves[] = {state, state};
-  rod::Predict(c, halves, &chain);
-  m.HoldInChain(0, &chain);
-  StepOfRod step{true, m.model.length, load, &m.ends, {}, 0};
-  SolveStep(c, &chain, &step);
-  if (!step.report.converged) {
-    m.TakeBackStep();
-    return step.report;
-  }
-  CommitShear(chain, &m.pair.shear);
-  m.TakeStep(chain, m.pair.shear, 0);
-  const RodState* accepting[] = {&state, &state};
-  Accept(c, chain, accepting);
-  m.AccountForStep(dt, step.load_power);
-  return step.report;
+  Impl* m = impl_.get();
+  if (!m->pair.stepper)
+    m->pair.stepper =
+        std::make_unique<ChainStepper<LanePair>>(ChainLayout::Halves(m->model.elements), *m);
+  const RodDrive drive{&a, &b, load};
+  SolveReport report;
+  m->pair.stepper->Step(dt, 1, &m, &drive, &report);
+  return report;
 }
 
 void Rod::Predict(double dt, const Pose& a, const Pose& b,
                   std::vector<Eigen::Vector3d>* positions) const {
   const Impl& m = *impl_;
   positions->resize(m.w.count);
-  for (int i = 0; i < m.w.count; ++i) (*positions)[i] = ToEigen(m.w.node[i].r + dt * m.w.node[i].v);
+  if (m.address.home)
+    m.address.home->Predict(m.address.lane, dt, positions);
+  else
+    for (int i = 0; i < m.w.count; ++i)
+      (*positions)[i] = ToEigen(m.w.node[i].r + dt * m.w.node[i].v);
   if (m.model.a.clamped()) positions->front() = a.p;
   if (m.model.b.clamped()) positions->back() = b.p;
 }
 
-V3 Rod::position(int i) const { return impl_->w.node[i].r; }
-V3 Rod::velocity(int i) const { return impl_->w.node[i].v; }
-Quat<double> Rod::orientation(int i) const { return impl_->w.node[i].q; }
-Pose Rod::pose(int i) const { return {ToEigen(impl_->w.node[i].r), ToEigen(impl_->w.node[i].q)}; }
-Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(impl_->w.node[i].omega); }
-Eigen::Vector3d Rod::acceleration(int i) const { return ToEigen(impl_->w.rate[i].v); }
-Eigen::Vector3d Rod::force(int e) const { return ToEigen(impl_->Stress(e).n); }
-Eigen::Vector3d Rod::moment(int e) const { return ToEigen(impl_->Stress(e).m); }
-Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(impl_->Stress(e).kappa); }
+const NodeState& Rod::NodeAt(int i) const {
+  impl_->Fetch();
+  return impl_->w.node[i];
+}
+const ElementStress& Rod::StressAt(int e) const {
+  impl_->Fetch();
+  return impl_->Stress(e);
+}
+V3 Rod::position(int i) const { return NodeAt(i).r; }
+V3 Rod::velocity(int i) const { return NodeAt(i).v; }
+Quat<double> Rod::orientation(int i) const { return NodeAt(i).q; }
+Pose Rod::pose(int i) const { return {ToEigen(NodeAt(i).r), ToEigen(NodeAt(i).q)}; }
+Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(NodeAt(i).omega); }
+Eigen::Vector3d Rod::acceleration(int i) const {
+  impl_->Fetch();
+  return ToEigen(impl_->w.rate[i].v);
+}
+Eigen::Vector3d Rod::force(int e) const { return ToEigen(StressAt(e).n); }
+Eigen::Vector3d Rod::moment(int e) const { return ToEigen(StressAt(e).m); }
+Eigen::Vector3d Rod::curvature(int e) const { return ToEigen(StressAt(e).kappa); }
 
 Wrench Rod::reaction_a() const {
   return ClampWrench(impl_->missing_a, ToEigen(impl_->w.node.front().q));

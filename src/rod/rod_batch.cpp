@@ -4,7 +4,6 @@
 
 #include "cosserat_cable/math/kernel.h"
 #include "rod_impl.h"
-#include "time_step.h"
 
 namespace cosserat_cable::rod {
 
@@ -15,62 +14,23 @@ struct RodBatch::Impl {
 
 template <class T>
 struct RodBatch::ImplInLanes : Impl {
-  static constexpr int kLanes = kLaneCount<T>;
-
   explicit ImplInLanes(const std::vector<Rod*>& all)
-      : rods(all), chain(ChainLayout::Side(all.front()->elements())), reports(all.size()) {
-    for (int l = 0; l < kLanes; ++l) OfLane(l).FillMasses(l, chain.layout, &chain.masses);
-    chain.SetHeld(OfLane(0).model.a.clamped(), OfLane(0).model.b.clamped());
-  }
-
-  // Lanes without a rod repeat the first one's and are never active.
-  Rod::Impl& OfLane(int lane) {
-    return *rods[lane < static_cast<int>(rods.size()) ? lane : 0]->impl_;
-  }
+      : rods(all),
+        impls(all.size()),
+        reports(all.size()),
+        stepper(ChainLayout::Side(all.front()->elements()), *all.front()->impl_) {}
 
   const std::vector<SolveReport>& Step(double dt, const std::vector<RodDrive>& drives) override {
-    const int count = static_cast<int>(rods.size());
-    const StepCoefficients c(dt);
-    StepOfRod steps[kLanes];
-    RodState states[kLanes];
-    for (int l = 0; l < kLanes; ++l) {
-      Rod::Impl& rod = OfLane(l);
-      states[l] = rod.State();
-      steps[l].ends = &rod.ends;
-      if (l < count && drives[l].a) {
-        steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
-        rod.BeginStep(c, *drives[l].a, *drives[l].b);
-      }
-      rod.FillChain(l, &chain, &shear);
-    }
-    OffsetShear(shear, &chain);
-    for (int l = 0; l < count; ++l) OfLane(l).AddBranches(l, &chain);
-    Predict(c, states, &chain);
-    for (int l = 0; l < kLanes; ++l) OfLane(l).HoldInChain(l, &chain);
-    SolveStep(c, &chain, steps);
-    for (int l = 0; l < kLanes; ++l)
-      if (!steps[l].report.converged) shear.history[l] = nullptr;
-    CommitShear(chain, &shear);
-    const RodState* accepting[kLanes] = {};
-    for (int l = 0; l < count; ++l) {
-      reports[l] = steps[l].report;
-      if (!reports[l].converged) {
-        if (steps[l].active) OfLane(l).TakeBackStep();
-        continue;
-      }
-      OfLane(l).TakeStep(chain, shear, l);
-      accepting[l] = &states[l];
-    }
-    Accept(c, chain, accepting);
-    for (int l = 0; l < count; ++l)
-      if (accepting[l]) OfLane(l).AccountForStep(dt, steps[l].load_power);
+    // A rod that was assigned to has another one.
+    for (std::size_t l = 0; l < rods.size(); ++l) impls[l] = rods[l]->impl_.get();
+    stepper.Step(dt, static_cast<int>(rods.size()), impls.data(), drives.data(), reports.data());
     return reports;
   }
 
   std::vector<Rod*> rods;
-  StepChain<T> chain;
-  ShearLanes<T> shear;
+  std::vector<Rod::Impl*> impls;
   std::vector<SolveReport> reports;
+  ChainStepper<T> stepper;
 };
 
 int RodBatch::PreferredRods() {

@@ -7,8 +7,11 @@
 namespace cosserat_cable::rod {
 
 void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b) {
-  if (!energy.open()) energy.Open({EndPower(), 0, 0}, StoredEnergy());
-  next_law_ = LawOfStep(c.dt);
+  if (!energy.open()) {
+    Fetch();
+    energy.Open({EndPower(), 0, 0}, StoredEnergy());
+  }
+  law_of_step_ = LawOfStep(c.dt);
   ends_before_ = ends;
   ends.a.MoveTo(a, c);
   ends.b.MoveTo(b, c);
@@ -30,46 +33,38 @@ void Rod::Impl::FillMasses(int rod_lane, const ChainLayout& layout,
 }
 
 template <class T>
-void Rod::Impl::FillChain(int rod_lane, StepChain<T>* chain, ShearLanes<T>* shear_lanes) {
+void Rod::Impl::FillLaw(int rod_lane, StepChain<T>* chain) const {
   const ChainLayout& layout = chain->layout;
-  const ShearStep<double> steps[] = {shear1.step(), shear2.step()};
-  const V3 unbend = -Scale(next_law_.C_M, ToSmall(model.section.kappa0));
+  const ShearStep<double> step1 = shear1.step(), step2 = shear2.step();
+  const V3 unbend = -Scale(law_of_step_.C_M, ToSmall(model.section.kappa0));
   for (int lane = 0; lane < kLaneCount<T>; ++lane) {
     if (!layout.halves && lane != rod_lane) continue;
-    const bool backwards = layout.halves && lane == 1;
+    const double forwards = layout.halves && lane == 1 ? -1.0 : 1.0;
     SetLane(&chain->gravity, lane, w.gravity);
-    SetLane(&chain->law, lane, next_law_);
-    if (backwards) SetLane(&chain->law.gamma0, lane, -next_law_.gamma0);
-    for (int k = 0; k < 2; ++k) SetLane(&shear_lanes->axis[k], lane, steps[k]);
-    SetLane(&shear_lanes->unbend, lane, unbend);
-    SetLane(&shear_lanes->gamma0, lane, next_law_.gamma0);
-    SetLane(&shear_lanes->per_length, lane, (backwards ? -1 : 1) / h);
-    SetLane(&shear_lanes->forwards, lane, backwards ? -1.0 : 1.0);
-    shear_lanes->history[lane] = shear.data();
-    shear_lanes->offsets[lane] = next_offsets_.data();
+    SetLane(&chain->law, lane, law_of_step_);
+    SetLane(&chain->law.gamma0, lane, forwards * law_of_step_.gamma0);
+    SetLane(&chain->unbend, lane, forwards * unbend);
+    ChainShearLaw<T>& shear_law = chain->shear_law;
+    SetLane(&shear_law.x, lane, step1);
+    SetLane(&shear_law.y, lane, step2);
+    SetLane(&shear_law.gamma0, lane, law_of_step_.gamma0);
+    SetLane(&shear_law.per_length, lane, forwards / h);
+    SetLane(&shear_law.forwards, lane, forwards);
     if (!joints.empty()) FillJoints(lane, chain);
   }
 }
 
 template <class T>
-void Rod::Impl::AddBranches(int rod_lane, StepChain<T>* chain) {
-  if (branches.empty()) return;
+void Rod::Impl::FillBranches(int rod_lane, StepChain<T>* chain) {
   const ChainLayout& layout = chain->layout;
-  const V3 unbend = -Scale(next_law_.C_M, ToSmall(model.section.kappa0));
-  for (int e = 0; e < model.elements; ++e) {
-    const SectionValue more = branches.Offset(e);
-    ElementOffset<double>& offset = next_offsets_[e];
-    offset.F += ToSmall(more.F);
-    offset.F.z = more.F.z();
-    offset.M = unbend + ToSmall(more.M);
-  }
+  for (int e = 0; e < model.elements; ++e) branch_stress_[e] = branches.Offset(e);
   for (int lane = 0; lane < kLaneCount<T>; ++lane) {
     if (!layout.halves && lane != rod_lane) continue;
-    const bool backwards = layout.halves && lane == 1;
+    const double forwards = layout.halves && lane == 1 ? -1.0 : 1.0;
     for (int k = 0; k < layout.chain_elements; ++k) {
-      const ElementOffset<double>& offset = next_offsets_[std::max(0, layout.ElementAt(k, lane))];
-      SetLane(&chain->offsets[k].F, lane, backwards ? -offset.F : offset.F);
-      SetLane(&chain->offsets[k].M, lane, backwards ? -offset.M : offset.M);
+      const SectionValue& more = branch_stress_[std::max(0, layout.ElementAt(k, lane))];
+      SetLane(&chain->branch_offsets[k].F, lane, forwards * ToSmall(more.F));
+      SetLane(&chain->branch_offsets[k].M, lane, forwards * ToSmall(more.M));
     }
   }
 }
@@ -120,29 +115,74 @@ void Rod::Impl::HoldInChain(int rod_lane, StepChain<T>* chain) const {
 }
 
 template <class T>
-double Rod::Impl::CommitBranches(const StepChain<T>& chain, int lane, double per_length) {
+ElementStress Rod::Impl::StressIn(const StepChain<T>& chain, int entry, int lane,
+                                  int element) const {
+  const double per_length = GetLane(chain.shear_law.per_length, lane);
+  const ChainStrain<T>& strain = chain.strains[entry];
+  ElementStress found;
+  found.gamma = per_length * GetLane(strain.u, lane);
+  found.gamma_dot = per_length * GetLane(strain.u_rate, lane);
+  found.kappa = per_length * GetLane(strain.theta, lane);
+  found.kappa_dot = per_length * GetLane(strain.theta_rate, lane);
+  const Section& s = model.section;
+  const ElementStrain beyond = StrainOf(found);
+  const Eigen::Vector3d m =
+      s.C_M.cwiseProduct(beyond.kappa) + s.V_M.cwiseProduct(beyond.kappa_dot);
+  found.n = {shear1.Force(shear[element][0]), shear2.Force(shear[element][1]),
+             s.C_F.z() * beyond.gamma.z() + s.V_F.z() * beyond.gamma_dot.z()};
+  found.m = ToSmall(m);
+  return found;
+}
+
+template <class T>
+void Rod::Impl::TakeState(const StepChain<T>& chain, int rod_lane) {
+  const ChainLayout& layout = chain.layout;
+  for (int i = 0; i <= model.elements; ++i) {
+    const ChainLayout::Place at = layout.OfNode(i, rod_lane);
+    const ChainState<T>& state = chain.state[at.entry];
+    w.node[i] = GetLane(state.at, at.lane);
+    w.rate[i] = GetLane(state.rate, at.lane);
+    w.algorithm[i] = GetLane(state.algorithm, at.lane);
+  }
+  for (int e = 0; e < model.elements; ++e) {
+    const ChainLayout::Place at = layout.OfElement(e, rod_lane);
+    shear[e] = GetLane(chain.shear[at.entry], at.lane);
+    stress_[e] = StressIn(chain, at.entry, at.lane, e);
+    if (branches.empty()) continue;
+    stress_[e].n += ToSmall(branch_stress_[e].F);
+    stress_[e].m += ToSmall(branch_stress_[e].M);
+  }
+}
+
+template <class T>
+double Rod::Impl::CommitBranches(const StepChain<T>& chain, int rod_lane) {
+  const SectionValue stiffness = branches.StepStiffness();
   double rate = 0;
-  const int padding = lane == 0 ? chain.layout.padding : 0;
-  for (int k = padding; k < chain.layout.chain_elements; ++k) {
+  for (int e = 0; e < model.elements; ++e) {
+    const ChainLayout::Place at = chain.layout.OfElement(e, rod_lane);
+    const double per_length = GetLane(chain.shear_law.per_length, at.lane);
+    const ChainStrain<T>& found = chain.strains[at.entry];
     const auto strain_of = [&](const Vec3<T>& change) -> Eigen::Vector3d {
-      return ToEigen(per_length * GetLane(change, lane));
+      return ToEigen(per_length * GetLane(change, at.lane));
     };
-    const ChainStrain<T>& found = chain.strains[k];
-    const int e = chain.layout.ElementAt(k, lane);
-    branches.Commit(e,
-                    {strain_of(found.u) - model.section.gamma0, strain_of(found.u_rate),
-                     strain_of(found.theta) - model.section.kappa0, strain_of(found.theta_rate)});
+    const ElementStrain strain = {
+        strain_of(found.u) - model.section.gamma0, strain_of(found.u_rate),
+        strain_of(found.theta) - model.section.kappa0, strain_of(found.theta_rate)};
+    branch_stress_[e].F += stiffness.F.cwiseProduct(strain.gamma);
+    branch_stress_[e].M += stiffness.M.cwiseProduct(strain.kappa);
+    branches.Commit(e, strain);
     rate += branches.DissipationRate(e);
   }
   return rate;
 }
 
 template <class T>
-void Rod::Impl::TakeStep(const StepChain<T>& chain, const ShearLanes<T>& shear_lanes,
-                         int rod_lane) {
+void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, double load_power) {
   const ChainLayout& layout = chain.layout;
   const ChainLayout::Place front = layout.OfNode(0, rod_lane);
   const ChainLayout::Place back = layout.OfNode(model.elements, rod_lane);
+  w.node.front() = GetLane(chain.state[front.entry].at, front.lane);
+  w.node.back() = GetLane(chain.state[back.entry].at, back.lane);
   missing_a = GetLane(chain.missing_first[front.entry], front.lane);
   missing_b = GetLane(layout.halves ? chain.missing_first[0] : chain.missing_last, back.lane);
   if (chain.loaded)
@@ -150,25 +190,21 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, const ShearLanes<T>& shear_l
       missing_a[k] += GetLane(chain.load_rhs[front.entry][k], front.lane);
       missing_b[k] += GetLane(chain.load_rhs[back.entry][k], back.lane);
     }
-  double dissipation = 0;
-  for (int lane = 0; lane < kLaneCount<T>; ++lane) {
-    if (!layout.halves && lane != rod_lane) continue;
-    dissipation += GetLane(chain.dissipation, lane) + h * GetLane(shear_lanes.dissipation, lane);
-    if (!branches.empty())
-      dissipation += h * CommitBranches(chain, lane, GetLane(shear_lanes.per_length, lane));
-  }
-  dissipation_rate_ = dissipation;
-  law = next_law_;
-  std::swap(offsets, next_offsets_);
-  stress_known_ = false;
+  dissipation_rate_ = 0;
+  for (int lane = 0; lane < kLaneCount<T>; ++lane)
+    if (layout.halves || lane == rod_lane) dissipation_rate_ += GetLane(chain.dissipation, lane);
+  if (!branches.empty()) dissipation_rate_ += h * CommitBranches(chain, rod_lane);
+  address.fetched = false;
+  AccountForStep(dt, load_power);
 }
 
 #define COSSERAT_CABLE_INSTANTIATE(T)                                                            \
   template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<T>>*) const; \
-  template void Rod::Impl::FillChain(int, StepChain<T>*, ShearLanes<T>*);                        \
-  template void Rod::Impl::AddBranches(int, StepChain<T>*);                                      \
+  template void Rod::Impl::FillLaw(int, StepChain<T>*) const;                                    \
+  template void Rod::Impl::FillBranches(int, StepChain<T>*);                                     \
   template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
-  template void Rod::Impl::TakeStep(const StepChain<T>&, const ShearLanes<T>&, int);
+  template void Rod::Impl::TakeState(const StepChain<T>&, int);                                  \
+  template void Rod::Impl::TakeStep(double, const StepChain<T>&, int, double);
 COSSERAT_CABLE_INSTANTIATE(WideLanes)
 COSSERAT_CABLE_INSTANTIATE(Lanes)
 COSSERAT_CABLE_INSTANTIATE(LanePair)

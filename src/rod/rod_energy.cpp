@@ -29,7 +29,7 @@ double Rod::Impl::KineticEnergy() const {
   return energy;
 }
 
-double Rod::Impl::ElasticEnergy() {
+double Rod::Impl::ElasticEnergy() const {
   double energy = 0;
   for (int e = 0; e < model.elements; ++e) {
     const ElementStrain strain = StrainOf(Stress(e));
@@ -41,7 +41,7 @@ double Rod::Impl::ElasticEnergy() {
   return energy + ends.a.SpringEnergy(w.node.front()) + ends.b.SpringEnergy(w.node.back());
 }
 
-double Rod::Impl::StoredEnergy() {
+double Rod::Impl::StoredEnergy() const {
   return KineticEnergy() + ElasticEnergy() + GravityEnergy(w.node);
 }
 
@@ -60,9 +60,21 @@ void Rod::Impl::AccountForStep(double dt, double load_power) {
   energy.Add(dt, {EndPower(), load_power, dissipation_rate_ + in_ends});
 }
 
-EnergyBalance Rod::energy_balance() const { return impl_->energy.Balance(impl_->StoredEnergy()); }
-double Rod::kinetic_energy() const { return impl_->KineticEnergy(); }
-double Rod::elastic_energy() const { return impl_->ElasticEnergy(); }
-double Rod::gravity_energy() const { return impl_->GravityEnergy(impl_->w.node); }
+EnergyBalance Rod::energy_balance() const {
+  impl_->Fetch();
+  return impl_->energy.Balance(impl_->StoredEnergy());
+}
+double Rod::kinetic_energy() const {
+  impl_->Fetch();
+  return impl_->KineticEnergy();
+}
+double Rod::elastic_energy() const {
+  impl_->Fetch();
+  return impl_->ElasticEnergy();
+}
+double Rod::gravity_energy() const {
+  impl_->Fetch();
+  return impl_->GravityEnergy(impl_->w.node);
+}
 
 }  // namespace cosserat_cable::rod

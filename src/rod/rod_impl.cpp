@@ -41,12 +41,12 @@ Rod::Impl::Impl(const RodModel& m)
       ends{EndPart(m.a), EndPart(m.b)},
       w(m.elements),
       shear(m.elements),
-      offsets(m.elements),
       missing_a{},
       missing_b{},
+      law_of_step_{},
       ends_before_(ends),
-      next_offsets_(m.elements),
-      stress_(m.elements) {
+      stress_(m.elements),
+      branch_stress_(m.branches.empty() ? 0 : m.elements) {
   for (int i = 0; i < w.count; ++i) {
     const double share = (i == 0 || i == w.count - 1) ? 0.5 * h : h;
     w.mass[i] = share * m.section.rhoA;
@@ -76,6 +76,22 @@ Rod::Impl::Impl(const RodModel& m)
   }
   w.gravity = ToSmall(m.gravity);
   PrepareStatics();
+}
+
+Rod::Impl::~Impl() {
+  if (address.home) address.home->MoveOut(address.lane);
+}
+
+void Rod::Impl::Fetch() {
+  if (address.fetched) return;
+  address.home->Fetch(address.lane, this);
+  address.fetched = true;
+}
+
+void Rod::Impl::MoveOut() {
+  Fetch();
+  if (address.home) address.home->MoveOut(address.lane);
+  address.home = nullptr;
 }
 
 void Rod::Impl::PrepareStatics() {
@@ -132,32 +148,18 @@ ElementStrain Rod::Impl::StrainOf(const ElementStress& now) const {
 void Rod::Impl::TakeRest() {
   missing_a = w.rhs.front();
   missing_b = w.rhs.back();
-  law = w.law;
-  const V3 unbend = -Scale(law.C_M, ToSmall(model.section.kappa0));
+  const SectionValue relaxed = branches.StaticStiffness();
   for (int e = 0; e < model.elements; ++e) {
     stress_[e] = w.chain.Stress(e, 0);
     const ElementStrain strain = StrainOf(stress_[e]);
     shear[e] = {shear1.Rest(strain.gamma.x()), shear2.Rest(strain.gamma.y())};
     branches.Rest(e, strain);
-    offsets[e] = next_offsets_[e] = {V3{}, unbend};
+    if (branches.empty()) continue;
+    branch_stress_[e].F = relaxed.F.cwiseProduct(strain.gamma);
+    branch_stress_[e].M = relaxed.M.cwiseProduct(strain.kappa);
   }
-  stress_known_ = true;
   dissipation_rate_ = 0;
   energy.Close();
-}
-
-void Rod::Impl::EvaluateStress() {
-  w.law = law;
-  for (int e = 0; e < model.elements; ++e) w.chain.SetOffset(e, 0, offsets[e].F, offsets[e].M);
-  w.trial = w.node;
-  EvaluateForces(&w);
-  for (int e = 0; e < model.elements; ++e) stress_[e] = w.chain.Stress(e, 0);
-  stress_known_ = true;
-}
-
-const ElementStress& Rod::Impl::Stress(int element) {
-  if (!stress_known_) EvaluateStress();
-  return stress_[element];
 }
 
 }  // namespace cosserat_cable::rod

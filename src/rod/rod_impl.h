@@ -7,12 +7,12 @@
 
 #include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/rod.h"
+#include "chain_stepper.h"
 #include "end_part.h"
 #include "energy_book.h"
+#include "rod_home.h"
 #include "section_branches.h"
-#include "shear_lanes.h"
 #include "step_workspace.h"
-#include "time_step.h"
 
 namespace cosserat_cable::rod {
 
@@ -24,12 +24,13 @@ struct PairMemory {
   PairMemory() = default;
   PairMemory(const PairMemory&) {}
   PairMemory& operator=(const PairMemory&) { return *this; }
-  std::unique_ptr<StepChain<LanePair>> chain;
-  ShearLanes<LanePair> shear;
+  std::unique_ptr<ChainStepper<LanePair>> stepper;
 };
 
 struct Rod::Impl {
   explicit Impl(const RodModel& m);
+  Impl(const Impl&) = default;
+  ~Impl();
 
   RodModel model;
   double h;  // element length [m]
@@ -37,15 +38,19 @@ struct Rod::Impl {
   SectionBranches branches;
   std::vector<Quat<double>> joints;  // by node; none of a rod without joints
   EndParts ends;
-  StepWorkspace<double> w;  // `node`, `rate` and `algorithm` are the state
 
-  // The rest of the state, by element.
+  // The state: `node`, `rate` and `algorithm` of the workspace, and by element. As it was when it
+  // was last fetched from where it is; what the end nodes are is always known.
+  StepWorkspace<double> w;
   std::vector<ShearHistory> shear;
-  // With what law and offsets the elements' stresses follow from the state.
-  ElementLaw<double> law;
-  std::vector<ElementOffset<double>> offsets;
+  RodAddress address;
+
   Vec6<double> missing_a, missing_b;  // what the end nodes lack to balance: the clamps supply it
   EnergyBook energy;
+
+  /// To be called before the state is read, and before it is changed.
+  void Fetch();
+  void MoveOut();
 
   // The nodes that are unknown.
   int first_free() const { return model.a.clamped() ? 1 : 0; }
@@ -64,56 +69,58 @@ struct Rod::Impl {
   void BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b);
   /// The clamps are where they were: the step begun has failed.
   void TakeBackStep() { ends = ends_before_; }
-  RodState State() { return {w.node.data(), w.rate.data(), w.algorithm.data()}; }
   template <class T>
   void FillMasses(int lane, const ChainLayout& layout, std::vector<NodeMass<T>>* masses) const;
-  /// What a chain needs of the rod in a step besides its state, into a lane, or into both halves.
+  /// The law of the step, into a lane of a chain or into both halves.
   template <class T>
-  void FillChain(int lane, StepChain<T>* chain, ShearLanes<T>* shear_lanes);
+  void FillLaw(int lane, StepChain<T>* chain) const;
   /// What the branches add to the offsets of the chain.
   template <class T>
-  void AddBranches(int lane, StepChain<T>* chain);
+  void FillBranches(int lane, StepChain<T>* chain);
   /// The clamped ends into the chain's first iterate.
   template <class T>
   void HoldInChain(int lane, StepChain<T>* chain) const;
-  /// Takes over what a chain found besides the state: internal variables and end forces.
+  /// Takes over what a chain found in a step of `dt` [s]: end forces, energies, and the internal
+  /// variables of branches. The state stays there.
   template <class T>
-  void TakeStep(const StepChain<T>& chain, const ShearLanes<T>& shear_lanes, int lane);
-  /// After a step of `dt` [s] whose state is in place.
-  void AccountForStep(double dt, double load_power);
+  void TakeStep(double dt, const StepChain<T>& chain, int lane, double load_power);
+  /// The state that a chain has, and stresses from its strains.
+  template <class T>
+  void TakeState(const StepChain<T>& chain, int lane);
   /// The equilibrium in `trial` becomes what stresses, end forces and internal variables are of.
   void TakeRest();
 
-  /// Of an element in the present state. Found when first asked for.
-  const ElementStress& Stress(int element);
+  /// Of an element in the state last fetched.
+  const ElementStress& Stress(int element) const { return stress_[element]; }
 
   /// Of the iterate that was evaluated last, at rest.
   double StaticEnergy() const;
   double GravityEnergy(const std::vector<NodeState>& nodes) const;
   /// Of the state.
   double KineticEnergy() const;
-  double ElasticEnergy();
-  double StoredEnergy();  // all of it
+  double ElasticEnergy() const;
+  double StoredEnergy() const;  // all of it
 
   PairMemory pair;
 
  private:
-  void EvaluateStress();
   template <class T>
   void FillJoints(int lane, StepChain<T>* chain) const;
   ElementStrain StrainOf(const ElementStress& stress) const;
   /// Gives the branches of a lane's elements their strains at the step's end; returns the sum of
   /// what they dissipate, per length [W/m].
   template <class T>
-  double CommitBranches(const StepChain<T>& chain, int lane, double per_length);
+  double CommitBranches(const StepChain<T>& chain, int lane);
+  template <class T>
+  ElementStress StressIn(const StepChain<T>& chain, int entry, int lane, int element) const;
   double EndPower() const;
+  void AccountForStep(double dt, double load_power);
 
-  ElementLaw<double> next_law_;  // of the step begun
-  EndParts ends_before_;         // its start
-  double dissipation_rate_ = 0;  // of the sections [W]
-  std::vector<ElementOffset<double>> next_offsets_;
-  std::vector<ElementStress> stress_;
-  bool stress_known_ = false;
+  ElementLaw<double> law_of_step_;          // of the step begun
+  EndParts ends_before_;                    // its start
+  double dissipation_rate_ = 0;             // of the sections [W]
+  std::vector<ElementStress> stress_;       // by element
+  std::vector<SectionValue> branch_stress_;  // the branches' part of it
 };
 
 }  // namespace cosserat_cable::rod

@@ -75,6 +75,8 @@ class ShearSeries {
     const double g2 = gamma - now.g1;
     return 0.5 * (GA_ * now.g1 * now.g1 + (sum_ - GA_) * g2 * g2);
   }
+  /// Q at this state [N].
+  double Force(const History& now) const { return GA_ * now.g1 + viscous_ * (now.G - now.g1); }
   double static_stiffness() const { return GA_ * target_C_; }  ///< [N]
 
   /// Q by Gamma for motion as exp(lambda t), (GA + lambda eta_GA)(B + lambda eta_B)/(GA + B +

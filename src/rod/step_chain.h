@@ -8,6 +8,7 @@
 
 #include "element_joint.h"
 #include "node_elimination.h"
+#include "shear_series.h"
 
 namespace cosserat_cable::rod {
 
@@ -62,6 +63,13 @@ struct ChainLayout {
   int padding, chain_elements, middle;
 };
 
+/// A node before a step.
+template <class T>
+struct ChainState {
+  Node<T> at;
+  NodeRates<T> rate, algorithm;  // true accelerations, generalised-alpha's own
+};
+
 template <class T>
 struct ChainNode {
   Node<T> at;         // the iterate
@@ -69,6 +77,21 @@ struct ChainNode {
 
   Quat<T> q0;    // where it was before the step
   Vec3<T> turn;  // its rotation in the step [rad]
+};
+
+/// Shear's internal variables of an element, along a1 and a2, as the rod itself sees it.
+template <class T>
+struct ChainShear {
+  ShearHistoryOf<T> x, y;
+};
+
+/// Each rod's law of shear over the step, and what else its elements have in common.
+template <class T>
+struct ChainShearLaw {
+  ShearStep<T> x, y;  // along a1 and a2
+  Vec3<T> gamma0;     // unstressed strain [1], as the rod itself sees it
+  T per_length;       // by the elements' lengths [1/m]; negative where a half runs backwards
+  T forwards;         // 1, or -1 there
 };
 
 template <class T>
@@ -82,24 +105,49 @@ struct ChainStrain {
   Vec3<T> u, u_rate, theta, theta_rate;  // as in ElementState
 };
 
-/// Squares of a correction's largest entries [m^2], [rad^2], and a sum that is finite only if all
-/// are.
+/// Squares of a correction's norm over all nodes [m^2], [rad^2].
 template <class T>
 struct ChainCorrection {
-  T translation, rotation, sum;
+  T translation, rotation;
 };
+
+/// What a sweep leaves of the chain's linear system, solved in numbers F.
+template <class F>
+struct Elimination {
+  explicit Elimination(std::size_t nodes) : factors(nodes), rhs(nodes) {}
+
+  std::vector<NodeFactor<F>> factors;
+  std::vector<Vec6<F>> rhs;  // minus the residual, substituted forwards
+};
+
+/// In what the systems of a step in T are solved. Residuals are exact, so that factors in float
+/// cost no accuracy, at most an iteration; eight floats are half as many bytes and operations.
+template <class T>
+struct QuickNumber {
+  using Type = T;
+};
+template <>
+struct QuickNumber<WideLanes> {
+  using Type = BasicLanes<8, float>;
+};
+template <class T>
+using Quick = typename QuickNumber<T>::Type;
 
 template <class T>
 struct StepChain {
   explicit StepChain(const ChainLayout& where)
       : layout(where),
-        nodes(layout.chain_elements + 1),
-        past(nodes.size()),
-        masses(nodes.size()),
-        offsets(layout.chain_elements),
+        state(layout.chain_elements + 1),
+        shear(layout.chain_elements),
+        next_shear(shear.size()),
+        nodes(state.size()),
+        past(state.size()),
+        masses(state.size()),
+        shear_offsets(layout.chain_elements),
+        branch_offsets(layout.chain_elements),
         strains(layout.chain_elements),
-        factors(nodes.size()),
-        rhs(nodes.size()),
+        quick(nodes.size()),
+        exact(nodes.size()),
         load_rhs(nodes.size()),
         load_diagonal(nodes.size()),
         load_lower(nodes.size()) {
@@ -145,18 +193,25 @@ struct StepChain {
   T exists = 1.0;   // 0 where the first element is nowhere
   Vec3<T> gravity;  // [m/s^2]
   ElementLaw<T> law;
+  ChainShearLaw<T> shear_law;
+  Vec3<T> unbend;         // what an unstressed curvature adds to the moment [N m]
+  bool branched = false;  // whether any rod's section has more than its Kelvin-Voigt elements
+
+  std::vector<ChainState<T>> state;
+  std::vector<ChainShear<T>> shear, next_shear;  // the latter is of a step that is being accepted
 
   std::vector<ChainNode<T>> nodes;
   std::vector<NodeRates<T>> past;  // what of the accelerations comes from the step's start
   std::vector<NodeMass<T>> masses;
-  std::vector<ElementOffset<T>> offsets;
+  std::vector<ShearOffset<T>> shear_offsets;
+  std::vector<ElementOffset<T>> branch_offsets;  // only where `branched`
   std::vector<ElementJoint<T>> joints;  // none of rods without joints
-  std::vector<ChainStrain<T>> strains;  // of the accepted iterate
-  T dissipation = 0.0;  // of the accepted iterate, in stretch, bending and twist [W]
+  std::vector<ChainStrain<T>> strains;  // found when asked for
+  T dissipation = 0.0;                  // of the accepted iterate [W]
   Vec6<T> missing_first[2], missing_last;  // what its end nodes lack to balance
 
-  std::vector<NodeFactor<T>> factors;
-  std::vector<Vec6<T>> rhs;  // minus the residual, substituted forwards
+  Elimination<Quick<T>> quick;
+  Elimination<T> exact;  // where quick does not do
 
   // What loads add, where there are any: to the right-hand side, to the nodes' own blocks of the
   // tangent, and to the symmetric block of two nodes' positions.

@@ -18,11 +18,18 @@ constexpr double kRoundOff = 1e-12;
 // The factors of the first iteration serve the second; whoever needs a third gets fresh ones. A
 // fixed rule, so that no rod sees what its neighbours in the lanes need.
 constexpr int kRefactorFrom = 3;
+// From this iteration on, factors are as precise as everything else.
+constexpr int kExactFrom = 5;
 
-/// Of the lanes of one rod.
+/// Root mean square over the nodes of one rod, of whose squares `sum` is the sum.
 template <class T>
-double Largest(const T& x, int rod, bool halves) {
-  return halves ? std::max(GetLane(x, 0), GetLane(x, 1)) : GetLane(x, rod);
+double MeanSize(const T& sum, int rod, const ChainLayout& layout) {
+  const double total = layout.halves ? GetLane(sum, 0) + GetLane(sum, 1) : GetLane(sum, rod);
+  return std::sqrt(total / (layout.elements + 1));
+}
+template <class T>
+bool IsPositive(const T& x, int rod, bool halves) {
+  return halves ? GetLane(x, 0) > 0 && GetLane(x, 1) > 0 : GetLane(x, rod) > 0;
 }
 
 }  // namespace
@@ -59,29 +66,37 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       if (running[r]) ImposeEnds(c, *rods[r].ends, r, chain);
   };
 
-  for (int iteration = 1; iteration <= kMaxIterations && any_running(); ++iteration) {
-    const bool fresh = iteration == 1 || iteration >= kRefactorFrom;
-    add_loads(fresh, true, [&](int r) { return running[r]; });
-    T pivot(1.0);
-    EliminateForward(c, fresh, chain, &pivot);
+  const auto keep_running = [&] {
     T keep(1.0);
     for (int r = 0; r < count; ++r)
       if (!running[r])
         for (int l = 0; l < kLanes; ++l)
           if (halves || l == r) SetLane(&keep, l, 0.0);
+    return keep;
+  };
+
+  for (int iteration = 1; iteration <= kMaxIterations && any_running(); ++iteration) {
+    const bool fresh = iteration == 1 || iteration >= kRefactorFrom;
+    add_loads(fresh, true, [&](int r) { return running[r]; });
     ChainCorrection<T> size;
-    CorrectBackward(c, keep, chain, &size);
+    bool definite[kLanes];
+    const auto solve = [&](auto* solver, auto pivot) {
+      EliminateForward(c, fresh, chain, solver, &pivot);
+      for (int r = 0; r < count; ++r) definite[r] = IsPositive(pivot, r, halves);
+      CorrectBackward(c, keep_running(), *solver, chain, &size);
+    };
+    if (iteration < kExactFrom)
+      solve(&chain->quick, Quick<T>(1.0));
+    else
+      solve(&chain->exact, T(1.0));
     impose_ends();
     for (int r = 0; r < count; ++r) {
       if (!running[r]) continue;
       SolveReport& report = rods[r].report;
       report.iterations = iteration;
-      report.correction = std::max(std::sqrt(Largest(size.translation, r, halves)) / rods[r].length,
-                                   std::sqrt(Largest(size.rotation, r, halves)));
-      const double sum =
-          halves ? GetLane(size.sum, 0) + GetLane(size.sum, 1) : GetLane(size.sum, r);
-      const bool definite = -Largest(-pivot, r, halves) > 0;
-      if (!std::isfinite(sum) || !definite) {
+      report.correction = std::max(MeanSize(size.translation, r, chain->layout) / rods[r].length,
+                                   MeanSize(size.rotation, r, chain->layout));
+      if (!std::isfinite(report.correction) || !definite[r]) {
         running[r] = false;
         continue;
       }
@@ -93,7 +108,6 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
     }
   }
 
-  EvaluateAccepted(chain);
   // What the clamps exert is not a load: it is what their nodes lack.
   add_loads(false, false, [&](int r) { return rods[r].report.converged; });
 }

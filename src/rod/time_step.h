@@ -1,7 +1,7 @@
 // One implicit step of generalised-alpha on the configuration space R^3 x SO(3) per node.
 #pragma once
 
-#include "chain_kernels.h"
+#include "chain_solver.h"
 #include "cosserat_cable/rod/rod.h"
 #include "end_part.h"
 
@@ -18,8 +18,8 @@ struct StepOfRod {
 };
 
 /// Finds the iterate in which all forces balance, for each rod of the chain. Expects the first
-/// iterate and the held ends, law and offsets in the chain; leaves strains and end forces there. A
-/// rod's result does not depend on the others. `rods`: by lane; of one in halves, that one.
+/// iterate and the held ends, law and offsets in the chain; leaves the iterate there, and what
+/// loads add to it. A rod's result does not depend on the others. `rods`: by lane; of one in halves, that one.
 template <class T>
 void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods);
 

@@ -1,32 +1,23 @@
-// Doubles side by side as one scalar type. The kernel's templates work on one double, or on lanes:
+// Numbers side by side as one scalar type. The kernel's templates work on one double, or on lanes:
 // four or eight cables, or the two halves of one.
 #pragma once
 
 #include <cmath>
+#include <type_traits>
 
 namespace cosserat_cable {
 
 // GCC's vector extension: native where the machine has vectors this wide, else split.
-template <int N>
-struct VectorOf;
-template <>
-struct VectorOf<2> {
-  typedef double Type __attribute__((vector_size(16)));
-};
-template <>
-struct VectorOf<4> {
-  typedef double Type __attribute__((vector_size(32)));
+template <int N, class S>
+struct VectorOf {
+  typedef S Type __attribute__((vector_size(N * sizeof(S))));
 };
 
-template <>
-struct VectorOf<8> {
-  typedef double Type __attribute__((vector_size(64)));
-};
-
-template <int N>
-struct alignas(8 * N) BasicLanes {
+/// `N` numbers side by side; S: double or float.
+template <int N, class S = double>
+struct alignas(N * sizeof(S)) BasicLanes {
   static constexpr int kCount = N;
-  using Vector = typename VectorOf<N>::Type;
+  using Vector = typename VectorOf<N, S>::Type;
   Vector v;
 
   BasicLanes() = default;
@@ -38,7 +29,7 @@ struct alignas(8 * N) BasicLanes {
     return *this;
   }
   BasicLanes(double s) {  // NOLINT: a number stands for itself in every lane
-    v = s - Vector{};
+    v = static_cast<S>(s) - Vector{};
   }
   static BasicLanes Of(const Vector& vector) {
     BasicLanes lanes;
@@ -78,22 +69,31 @@ using WideLanes = BasicLanes<8>;
 /// The two halves of a cable.
 using LanePair = BasicLanes<2>;
 
+/// The same numbers, each rounded to the other's precision.
+template <class To, class From>
+To Converted(const From& from) {
+  if constexpr (std::is_same_v<To, From>)
+    return from;
+  else
+    return To::Of(__builtin_convertvector(from.v, typename To::Vector));
+}
+
 // What a template needs that treats one double as a single lane.
 
 template <class T>
 inline constexpr int kLaneCount = 1;
-template <int N>
-inline constexpr int kLaneCount<BasicLanes<N>> = N;
+template <int N, class S>
+inline constexpr int kLaneCount<BasicLanes<N, S>> = N;
 
 inline double GetLane(double value, int) { return value; }
-template <int N>
-double GetLane(const BasicLanes<N>& value, int lane) {
+template <int N, class S>
+double GetLane(const BasicLanes<N, S>& value, int lane) {
   return value[lane];
 }
 inline void SetLane(double* value, int, double x) { *value = x; }
-template <int N>
-void SetLane(BasicLanes<N>* value, int lane, double x) {
-  value->v[lane] = x;
+template <int N, class S>
+void SetLane(BasicLanes<N, S>* value, int lane, double x) {
+  value->v[lane] = static_cast<S>(x);
 }
 
 inline double Max(double a, double b) { return a > b ? a : b; }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "lanes.h"
+
 namespace cosserat_cable {
 
 template <class T>
@@ -206,6 +208,26 @@ Mat3<T> ToMatrix(const Quat<T>& q) {
   return {{{T(1) - yy - zz, xy - wz, xz + wy},
            {xy + wz, T(1) - xx - zz, yz - wx},
            {xz - wy, yz + wx, T(1) - xx - yy}}};
+}
+
+/// The same, each number rounded to the other's precision.
+template <class To, class From>
+Vec3<To> Converted(const Vec3<From>& v) {
+  return {Converted<To>(v.x), Converted<To>(v.y), Converted<To>(v.z)};
+}
+template <class To, class From>
+Mat3<To> Converted(const Mat3<From>& a) {
+  Mat3<To> c;
+#pragma GCC unroll 3
+  for (int i = 0; i < 3; ++i)
+#pragma GCC unroll 3
+    for (int j = 0; j < 3; ++j) c[i][j] = Converted<To>(a[i][j]);
+  return c;
+}
+
+template <class To, class From>
+Quat<To> Converted(const Quat<From>& q) {
+  return {Converted<To>(q.w), Converted<To>(q.x), Converted<To>(q.y), Converted<To>(q.z)};
 }
 
 }  // namespace cosserat_cable

@@ -50,10 +50,17 @@ struct RodModel {
 struct SolveReport {
   bool converged = false;
   int iterations = 0;
-  double correction = 0;  ///< last Newton correction, relative to the length and in rad
+  double correction = 0;  ///< last of Newton's, relative to the length and in rad
 };
 
 struct Mode;  // modes.h
+
+struct ElementStress;
+template <class T>
+struct Node;
+class RodHome;
+template <class T>
+class ChainStepper;
 
 /// Force and moment that a clamp, with its springs, exerts on the rod [N], [N m], world.
 struct Wrench {
@@ -120,7 +127,13 @@ class Rod : public Centreline {
 
  private:
   friend class RodBatch;
+  friend class RodHome;
+  template <class T>
+  friend class ChainStepper;
   friend std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load);
+  const Node<double>& NodeAt(int node) const;
+  const ElementStress& StressAt(int element) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

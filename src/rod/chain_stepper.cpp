@@ -1,0 +1,116 @@
+#include "chain_stepper.h"
+
+#include <algorithm>
+
+#include "chain_advance.h"
+#include "lane_access.h"
+#include "rod_impl.h"
+
+namespace cosserat_cable::rod {
+
+template <class T>
+ChainStepper<T>::ChainStepper(const ChainLayout& layout, const Rod::Impl& alike) : chain_(layout) {
+  chain_.SetHeld(alike.model.a.clamped(), alike.model.b.clamped());
+  if (!alike.joints.empty()) chain_.SetJointed();
+}
+
+template <class T>
+ChainStepper<T>::~ChainStepper() {
+  for (Rod::Impl* rod : residents_)
+    if (rod) rod->MoveOut();
+}
+
+template <class T>
+void ChainStepper<T>::CopyState(int rod_lane, const Rod::Impl& rod) {
+  const ChainLayout& layout = chain_.layout;
+  rod.FillMasses(rod_lane, layout, &chain_.masses);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (!layout.halves && lane != rod_lane) continue;
+    for (int k = 0; k <= layout.chain_elements; ++k) {
+      const int i = std::max(0, layout.NodeAt(k, lane));
+      SetLane(&chain_.state[k].at, lane, rod.w.node[i]);
+      SetLane(&chain_.state[k].rate, lane, rod.w.rate[i]);
+      SetLane(&chain_.state[k].algorithm, lane, rod.w.algorithm[i]);
+    }
+    for (int k = 0; k < layout.chain_elements; ++k)
+      SetLane(&chain_.shear[k], lane, rod.shear[std::max(0, layout.ElementAt(k, lane))]);
+  }
+}
+
+template <class T>
+void ChainStepper<T>::MoveIn(int lane, Rod::Impl* rod) {
+  if (residents_[lane] == rod) return;
+  if (residents_[lane]) residents_[lane]->MoveOut();
+  rod->MoveOut();
+  CopyState(lane, *rod);
+  residents_[lane] = rod;
+  rod->address.home = this;
+  rod->address.lane = lane;
+  strains_known_ = false;
+}
+
+template <class T>
+void ChainStepper<T>::Fetch(int lane, Rod::Impl* rod) {
+  if (!strains_known_) EvaluateStrains(&chain_);
+  strains_known_ = true;
+  rod->TakeState(chain_, lane);
+}
+
+template <class T>
+void ChainStepper<T>::Predict(int lane, double dt, std::vector<Eigen::Vector3d>* positions) const {
+  for (int i = 0; i <= chain_.layout.elements; ++i) {
+    const ChainLayout::Place at = chain_.layout.OfNode(i, lane);
+    const Node<T>& node = chain_.state[at.entry].at;
+    (*positions)[i] = ToEigen(GetLane(node.r, at.lane) + dt * GetLane(node.v, at.lane));
+  }
+}
+
+template <class T>
+void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const RodDrive* drives,
+                           SolveReport* reports) {
+  const StepCoefficients c(dt);
+  StepOfRod steps[kLanes];
+  chain_.branched = false;
+  for (int l = 0; l < count; ++l) {
+    Rod::Impl& rod = *rods[l];
+    MoveIn(l, &rod);
+    steps[l].ends = &rod.ends;
+    if (drives[l].a) {
+      steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
+      rod.BeginStep(c, *drives[l].a, *drives[l].b);
+    }
+    rod.FillLaw(l, &chain_);
+    chain_.branched |= !rod.branches.empty();
+  }
+  // Lanes without a rod repeat the first one as it was at first, and never move.
+  for (int l = count; l < kLanes && !chain_.layout.halves; ++l) {
+    if (!filled_) CopyState(l, *rods[0]);
+    rods[0]->FillLaw(l, &chain_);
+    steps[l].ends = &rods[0]->ends;
+  }
+  filled_ = true;
+  if (chain_.branched)
+    for (int l = 0; l < count; ++l) rods[l]->FillBranches(l, &chain_);
+  rod::Predict(c, &chain_);
+  for (int l = 0; l < count; ++l) rods[l]->HoldInChain(l, &chain_);
+  SolveStep(c, &chain_, steps);
+
+  T taken(0.0);
+  for (int l = 0; l < kLanes; ++l)
+    if (steps[chain_.layout.halves ? 0 : l].report.converged) SetLane(&taken, l, 1.0);
+  Accept(c, taken, &chain_);
+  strains_known_ = false;
+  for (int l = 0; l < count; ++l) {
+    reports[l] = steps[l].report;
+    if (reports[l].converged)
+      rods[l]->TakeStep(dt, chain_, l, steps[l].load_power);
+    else if (steps[l].active)
+      rods[l]->TakeBackStep();
+  }
+}
+
+template class ChainStepper<WideLanes>;
+template class ChainStepper<Lanes>;
+template class ChainStepper<LanePair>;
+
+}  // namespace cosserat_cable::rod

@@ -1,0 +1,45 @@
+// Takes rods through time steps: several side by side, or one in halves.
+#pragma once
+
+#include <vector>
+
+#include "cosserat_cable/rod/rod_batch.h"
+#include "rod_home.h"
+#include "step_chain.h"
+#include "step_coefficients.h"
+#include "time_step.h"
+
+namespace cosserat_cable::rod {
+
+template <class T>
+class ChainStepper final : public RodHome {
+ public:
+  /// `alike`: has the elements, joints and held ends of all rods.
+  ChainStepper(const ChainLayout& layout, const Rod::Impl& alike);
+  ~ChainStepper() override;
+
+  /// A step of `dt` [s] of `count` rods, by lane; as RodBatch::Step.
+  void Step(double dt, int count, Rod::Impl* const* rods, const RodDrive* drives,
+            SolveReport* reports);
+
+  void Fetch(int lane, Rod::Impl* rod) override;
+  void MoveOut(int lane) override { residents_[lane] = nullptr; }
+  void Predict(int lane, double dt, std::vector<Eigen::Vector3d>* positions) const override;
+
+ private:
+  static constexpr int kLanes = kLaneCount<T>;
+
+  void MoveIn(int lane, Rod::Impl* rod);
+  void CopyState(int lane, const Rod::Impl& rod);
+
+  StepChain<T> chain_;
+  Rod::Impl* residents_[kLanes] = {};  // whose state is here; of one in halves, in lane 0
+  bool strains_known_ = false;         // of the present state
+  bool filled_ = false;                // the lanes that no rod uses
+};
+
+extern template class ChainStepper<WideLanes>;
+extern template class ChainStepper<Lanes>;
+extern template class ChainStepper<LanePair>;
+
+}  // namespace cosserat_cable::rod
