@@ -21,11 +21,12 @@ constexpr int kRefactorFrom = 3;
 // From this iteration on, factors are as precise as everything else.
 constexpr int kExactFrom = 5;
 
-/// Root mean square over the nodes of one rod, of whose squares `sum` is the sum.
+/// Of squares over the nodes of one rod with this `sum`: the amplitude of a wave, which is the square
+/// root of twice their mean.
 template <class T>
-double MeanSize(const T& sum, int rod, const ChainLayout& layout) {
+double Amplitude(const T& sum, int rod, const ChainLayout& layout) {
   const double total = layout.halves ? GetLane(sum, 0) + GetLane(sum, 1) : GetLane(sum, rod);
-  return std::sqrt(total / (layout.elements + 1));
+  return std::sqrt(2 * total / (layout.elements + 1));
 }
 template <class T>
 bool IsPositive(const T& x, int rod, bool halves) {
@@ -94,8 +95,8 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       if (!running[r]) continue;
       SolveReport& report = rods[r].report;
       report.iterations = iteration;
-      report.correction = std::max(MeanSize(size.translation, r, chain->layout) / rods[r].length,
-                                   MeanSize(size.rotation, r, chain->layout));
+      report.correction = std::max(Amplitude(size.translation, r, chain->layout) / rods[r].length,
+                                   Amplitude(size.rotation, r, chain->layout));
       if (!std::isfinite(report.correction) || !definite[r]) {
         running[r] = false;
         continue;
