@@ -78,103 +78,184 @@ void AddLoadCoupling(const StepChain<T>& w, int e, F coupling[6][6]) {
     for (int j = 0; j < 3; ++j) coupling[i][j] += Converted<F>(w.load_lower[e][i][j]);
 }
 
-/// The sum of what a node lacks by itself and what the elimination of those before it carries over.
-template <class T, class F>
-Vec6<F> Summed(const Vec6<T>& own, const Vec6<F>& carried) {
-  Vec6<F> sum;
+/// An element and its first node, evaluated: what the linear system needs of them.
+template <class F>
+struct Evaluated {
+  ElementState<F> state;
+  Vec6<F> lacking;  // what the node lacks to balance
+};
+
+/// Evaluates elements and nodes one after the other, in full precision.
+template <bool kJointed, class T>
+class Evaluation {
+ public:
+  explicit Evaluation(const StepChain<T>& chain) : w_(chain), law_(chain.law) {
+    for (T& x : on_next_.v) x = T(0.0);
+  }
+
+  /// `with_state`: where that is wanted, too.
+  template <class F>
+  void Element(int e, bool with_state, Evaluated<F>* out) {
+    ElementState<T> state = StateOf<kJointed>(w_, w_.nodes, e, &largest_);
+    EvaluateStress(w_, law_, e, &state);
+    if (with_state) out->state = Converted<F>(state);
+    const ElementForces<T> forces = ForcesOf<kJointed>(w_, e, state);
+    Vec6<T> own = OwnForces(w_, e);
+    SubtractFromFirst(forces, &own);
+    Finish(e, own, out);
+    on_next_ = OnSecond(forces);
+    if (e < w_.layout.padding)
+      for (T& x : on_next_.v) x = w_.exists * x;
+  }
+  template <class F>
+  void LastNode(Evaluated<F>* out) {
+    const int k = w_.layout.chain_elements;
+    Finish(k, OwnForces(w_, k), out);
+  }
+
+  /// Square of the largest of the elements' Rodrigues vectors.
+  const T& largest() const { return largest_; }
+
+ private:
+  template <class F>
+  void Finish(int k, Vec6<T> own, Evaluated<F>* out) {
 #pragma GCC unroll 6
-  for (int i = 0; i < 6; ++i) sum[i] = Converted<F>(own[i]) + carried[i];
-  return sum;
-}
+    for (int i = 0; i < 6; ++i) {
+      own[i] -= on_next_[i];
+      if (w_.loaded) own[i] += w_.load_rhs[k][i];
+      out->lacking[i] = Converted<F>(own[i]);
+    }
+  }
+
+  const StepChain<T>& w_;
+  const ScaledLaw<T> law_;
+  T largest_ = 0.0;
+  Vec6<T> on_next_;  // what the last element exerts on its second node
+};
+
+/// The block-tridiagonal system's elimination, node after node.
+template <bool kJointed, class T, class F>
+class Eliminator {
+ public:
+  Eliminator(const StepCoefficients& c, const StepChain<T>& chain, Elimination<F>* solver,
+             const F& smallest)
+      : w_(chain),
+        solver_(*solver),
+        moduli_(Converted<F>(chain.law.h),
+                Converted<F>(chain.law.C_F + c.velocity_by_increment * chain.law.V_F),
+                Converted<F>(chain.law.C_M + c.velocity_by_increment * chain.law.V_M)),
+        rate_by_increment_(c.rate_by_increment),
+        pivot_(smallest) {
+    for (F& x : block_.v) x = F(0.0);
+    for (F& x : carried_.v) x = F(0.0);
+  }
+
+  /// Factorises node `e`'s block, complete with what element `e` adds to it.
+  void Factorise(int e, const ElementState<F>& state) {
+    tangent_ = EvaluateTangent(state, moduli_);
+    if constexpr (kJointed) TurnBack(Converted<F>(w_.joints[e]), &tangent_);
+    AddInertia(rate_by_increment_, w_.masses[e], &block_);
+    AddToFirst(tangent_, &block_);
+    if (e < w_.first) return;
+    AddLoadDiagonal(w_, e, &block_);
+    NodeFactor<F>& factor = solver_.factors[e];
+    F lowest = pivot_;
+    FactoriseNode(block_, &factor, &lowest);
+    if (e < w_.mixed_below) {  // where a node is held, it takes nothing and does not move
+      const F free = Converted<F>(w_.free[e]);
+      for (F& x : factor.inverse) x = free * x;
+      lowest = free * lowest + (1.0 - free) * pivot_;
+    }
+    pivot_ = lowest;
+  }
+  /// Begins the next node's block with what element `e` adds to it, less what is eliminated.
+  void Couple(int e) {
+    SetAtSecond(tangent_, &block_);
+    if (e < w_.layout.padding) {
+      const F exists = Converted<F>(w_.exists);
+      for (F& x : block_.v) x = exists * x;
+    }
+    if (e < w_.first) return;
+    F coupling[6][6];
+    Coupling(tangent_, coupling);
+    AddLoadCoupling(w_, e, coupling);
+    CoupleNode(coupling, &solver_.factors[e], &block_);
+  }
+  void Substitute(int e, const Vec6<F>& lacking) {
+    if (e < w_.first) return;
+    Vec6<F> b = Sum(lacking), next;
+    for (F& x : next.v) x = F(0.0);
+    SubstituteNode(solver_.factors[e], &b, &next);
+    solver_.rhs[e] = b;
+    carried_ = next;
+  }
+
+  /// The last node, which has no element after it; of a rod in halves it is both halves'.
+  void FactoriseLast() {
+    const int last = w_.layout.chain_elements;
+    AddInertia(rate_by_increment_, w_.masses[last], &block_);
+    AddLoadDiagonal(w_, last, &block_);
+    for (F& x : block_.v) Join(&x);
+    NodeFactor<F>& factor = solver_.factors[last];
+    FactoriseNode(block_, &factor, &pivot_);
+    for (auto& row : factor.gain)
+      for (F& x : row) x = F(0.0);
+  }
+  void SubstituteLast(const Vec6<F>& lacking) {
+    const int last = w_.layout.chain_elements;
+    Vec6<F> b = Sum(lacking), nobody = b;
+    for (F& x : b.v) Join(&x);
+    SubstituteNode(solver_.factors[last], &b, &nobody);
+    solver_.rhs[last] = b;
+  }
+
+  const F& smallest() const { return pivot_; }
+
+ private:
+  Vec6<F> Sum(const Vec6<F>& lacking) const {
+    Vec6<F> sum;
+#pragma GCC unroll 6
+    for (int i = 0; i < 6; ++i) sum[i] = lacking[i] + carried_[i];
+    return sum;
+  }
+
+  const StepChain<T>& w_;
+  Elimination<F>& solver_;
+  const TangentLaw<F> moduli_;
+  const F rate_by_increment_;
+  F pivot_;
+  ElementTangent<F> tangent_;  // of the element factorised last
+  Triangle6<F> block_;         // of the node that is next to be factorised
+  Vec6<F> carried_;            // what its right-hand side gets from those before
+};
 
 /// False where it has to be done again, now with the exact functions where the series are not.
 template <bool kJointed, class T, class F>
-bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* chain,
+bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* w,
                         Elimination<F>* solver, F* smallest) {
-  StepChain<T>& w = *chain;
-  const int first = w.first, last = w.last, elements = w.layout.chain_elements;
-  const ScaledLaw<T> law(w.law);
-  const TangentLaw<F> moduli(Converted<F>(w.law.h),
-                             Converted<F>(w.law.C_F + c.velocity_by_increment * w.law.V_F),
-                             Converted<F>(w.law.C_M + c.velocity_by_increment * w.law.V_M));
-  const F exists = Converted<F>(w.exists), rate_by_increment(c.rate_by_increment);
-
-  T largest(0.0);
-  F pivot = *smallest;
-  Vec6<T> own = OwnForces(w, 0);
-  Vec6<F> carried;
-  for (F& x : carried.v) x = F(0.0);
-  Triangle6<F> blocks[2];  // the current node's and the next one's, in turn
-  for (F& x : blocks[0].v) x = F(0.0);
-  AddInertia(rate_by_increment, w.masses[0], &blocks[0]);
-
+  const int elements = w->layout.chain_elements;
+  Evaluation<kJointed, T> evaluation(*w);
+  Eliminator<kJointed, T, F> eliminator(c, *w, solver, *smallest);
+  Evaluated<F> evaluated[2];
+  evaluation.Element(0, fresh, &evaluated[0]);
   for (int e = 0; e < elements; ++e) {
-    ElementState<T> state = StateOf<kJointed>(w, w.nodes, e, &largest);
-    EvaluateStress(w, law, e, &state);
-    const ElementForces<T> forces = ForcesOf<kJointed>(w, e, state);
-    SubtractFromFirst(forces, &own);
-    Vec6<T> own_next = OwnForces(w, e + 1);
-    const Vec6<T> on_second = OnSecond(forces);
-    const bool nowhere = e < w.layout.padding;
-#pragma GCC unroll 6
-    for (int k = 0; k < 6; ++k) own_next[k] -= nowhere ? w.exists * on_second[k] : on_second[k];
-
-    NodeFactor<F>& factor = solver->factors[e];
-    if (fresh) {
-      ElementTangent<F> tangent = EvaluateTangent(Converted<F>(state), moduli);
-      if constexpr (kJointed) TurnBack(Converted<F>(w.joints[e]), &tangent);
-      Triangle6<F>&s = blocks[e % 2], &next = blocks[(e + 1) % 2];
-      AddToFirst(tangent, &s);
-      SetAtSecond(tangent, &next);
-      if (nowhere)
-        for (F& x : next.v) x = exists * x;
-      AddInertia(rate_by_increment, w.masses[e + 1], &next);
-      if (e >= first) {
-        F coupling[6][6];
-        Coupling(tangent, coupling);
-        AddLoadDiagonal(w, e, &s);
-        AddLoadCoupling(w, e, coupling);
-        F lowest = pivot;
-        FactoriseNode(s, &factor, &lowest);
-        if (e < w.mixed_below) {  // where a node is held, it takes nothing and does not move
-          const F free = Converted<F>(w.free[e]);
-          for (F& x : factor.inverse) x = free * x;
-          lowest = free * lowest + (1.0 - free) * pivot;
-        }
-        pivot = lowest;
-        CoupleNode(coupling, &factor, &next);
-      }
-    }
-    if (e >= first) {
-      AddLoadForces(w, e, &own);
-      Vec6<F> b = Summed(own, carried);
-      for (F& x : carried.v) x = F(0.0);
-      SubstituteNode(factor, &b, &carried);
-      solver->rhs[e] = b;
-    }
-    own = own_next;
+    Evaluated<F>&now = evaluated[e % 2], &next = evaluated[(e + 1) % 2];
+    if (fresh) eliminator.Factorise(e, now.state);
+    // Between these two, whose operations wait for each other, the processor has this to do.
+    if (e + 1 < elements) evaluation.Element(e + 1, fresh, &next);
+    if (fresh) eliminator.Couple(e);
+    eliminator.Substitute(e, now.lacking);
   }
-  if (last == elements) {
-    NodeFactor<F>& factor = solver->factors[last];
-    AddLoadForces(w, last, &own);
-    Vec6<F> b = Summed(own, carried);
-    for (int k = 0; k < 6; ++k) Join(&b[k]);
-    if (fresh) {
-      Triangle6<F>& s = blocks[last % 2];
-      AddLoadDiagonal(w, last, &s);
-      for (F& x : s.v) Join(&x);
-      FactoriseNode(s, &factor, &pivot);
-      for (auto& row : factor.gain)
-        for (F& x : row) x = F(0.0);
-    }
-    SubstituteNode(factor, &b, &carried);
-    solver->rhs[last] = b;
+  if (w->last == elements) {
+    evaluation.LastNode(&evaluated[elements % 2]);
+    if (fresh) eliminator.FactoriseLast();
+    eliminator.SubstituteLast(evaluated[elements % 2].lacking);
   }
-  if (!w.careful && AnyAtLeast(largest, kArcTangentSeriesBelow)) {
-    w.careful = true;
+  if (!w->careful && AnyAtLeast(evaluation.largest(), kArcTangentSeriesBelow)) {
+    w->careful = true;
     return false;
   }
-  *smallest = pivot;
+  *smallest = eliminator.smallest();
   return true;
 }
 
