@@ -81,24 +81,26 @@ void AddLoadCoupling(const StepChain<T>& w, int e, F coupling[6][6]) {
 /// An element and its first node, evaluated: what the linear system needs of them.
 template <class F>
 struct Evaluated {
-  ElementState<F> state;
+  ElementTangent<F> tangent;
   Vec6<F> lacking;  // what the node lacks to balance
 };
 
-/// Evaluates elements and nodes one after the other, in full precision.
-template <bool kJointed, class T>
+/// Evaluates elements and nodes one after the other: forces in full precision.
+template <bool kJointed, class T, class F>
 class Evaluation {
  public:
-  explicit Evaluation(const StepChain<T>& chain) : w_(chain), law_(chain.law) {
+  Evaluation(const StepCoefficients& c, const StepChain<T>& chain)
+      : w_(chain),
+        law_(chain.law),
+        moduli_(Converted<F>(chain.law.h),
+                Converted<F>(chain.law.C_F + c.velocity_by_increment * chain.law.V_F),
+                Converted<F>(chain.law.C_M + c.velocity_by_increment * chain.law.V_M)) {
     for (T& x : on_next_.v) x = T(0.0);
   }
 
-  /// `with_state`: where that is wanted, too.
-  template <class F>
-  void Element(int e, bool with_state, Evaluated<F>* out) {
+  void Element(int e, bool with_tangent, Evaluated<F>* out) {
     ElementState<T> state = StateOf<kJointed>(w_, w_.nodes, e, &largest_);
     EvaluateStress(w_, law_, e, &state);
-    if (with_state) out->state = Converted<F>(state);
     const ElementForces<T> forces = ForcesOf<kJointed>(w_, e, state);
     Vec6<T> own = OwnForces(w_, e);
     SubtractFromFirst(forces, &own);
@@ -106,8 +108,10 @@ class Evaluation {
     on_next_ = OnSecond(forces);
     if (e < w_.layout.padding)
       for (T& x : on_next_.v) x = w_.exists * x;
+    if (!with_tangent) return;
+    out->tangent = EvaluateTangent(Converted<F>(state), moduli_);
+    if constexpr (kJointed) TurnBack(Converted<F>(w_.joints[e]), &out->tangent);
   }
-  template <class F>
   void LastNode(Evaluated<F>* out) {
     const int k = w_.layout.chain_elements;
     Finish(k, OwnForces(w_, k), out);
@@ -117,7 +121,6 @@ class Evaluation {
   const T& largest() const { return largest_; }
 
  private:
-  template <class F>
   void Finish(int k, Vec6<T> own, Evaluated<F>* out) {
 #pragma GCC unroll 6
     for (int i = 0; i < 6; ++i) {
@@ -129,21 +132,19 @@ class Evaluation {
 
   const StepChain<T>& w_;
   const ScaledLaw<T> law_;
+  const TangentLaw<F> moduli_;
   T largest_ = 0.0;
   Vec6<T> on_next_;  // what the last element exerts on its second node
 };
 
 /// The block-tridiagonal system's elimination, node after node.
-template <bool kJointed, class T, class F>
+template <class T, class F>
 class Eliminator {
  public:
   Eliminator(const StepCoefficients& c, const StepChain<T>& chain, Elimination<F>* solver,
              const F& smallest)
       : w_(chain),
         solver_(*solver),
-        moduli_(Converted<F>(chain.law.h),
-                Converted<F>(chain.law.C_F + c.velocity_by_increment * chain.law.V_F),
-                Converted<F>(chain.law.C_M + c.velocity_by_increment * chain.law.V_M)),
         rate_by_increment_(c.rate_by_increment),
         pivot_(smallest) {
     for (F& x : block_.v) x = F(0.0);
@@ -151,11 +152,9 @@ class Eliminator {
   }
 
   /// Factorises node `e`'s block, complete with what element `e` adds to it.
-  void Factorise(int e, const ElementState<F>& state) {
-    tangent_ = EvaluateTangent(state, moduli_);
-    if constexpr (kJointed) TurnBack(Converted<F>(w_.joints[e]), &tangent_);
+  void Factorise(int e, const ElementTangent<F>& tangent) {
     AddInertia(rate_by_increment_, w_.masses[e], &block_);
-    AddToFirst(tangent_, &block_);
+    AddToFirst(tangent, &block_);
     if (e < w_.first) return;
     AddLoadDiagonal(w_, e, &block_);
     NodeFactor<F>& factor = solver_.factors[e];
@@ -169,15 +168,15 @@ class Eliminator {
     pivot_ = lowest;
   }
   /// Begins the next node's block with what element `e` adds to it, less what is eliminated.
-  void Couple(int e) {
-    SetAtSecond(tangent_, &block_);
+  void Couple(int e, const ElementTangent<F>& tangent) {
+    SetAtSecond(tangent, &block_);
     if (e < w_.layout.padding) {
       const F exists = Converted<F>(w_.exists);
       for (F& x : block_.v) x = exists * x;
     }
     if (e < w_.first) return;
     F coupling[6][6];
-    Coupling(tangent_, coupling);
+    Coupling(tangent, coupling);
     AddLoadCoupling(w_, e, coupling);
     CoupleNode(coupling, &solver_.factors[e], &block_);
   }
@@ -221,12 +220,10 @@ class Eliminator {
 
   const StepChain<T>& w_;
   Elimination<F>& solver_;
-  const TangentLaw<F> moduli_;
   const F rate_by_increment_;
   F pivot_;
-  ElementTangent<F> tangent_;  // of the element factorised last
-  Triangle6<F> block_;         // of the node that is next to be factorised
-  Vec6<F> carried_;            // what its right-hand side gets from those before
+  Triangle6<F> block_;  // of the node that is next to be factorised
+  Vec6<F> carried_;     // what its right-hand side gets from those before
 };
 
 /// False where it has to be done again, now with the exact functions where the series are not.
@@ -234,16 +231,16 @@ template <bool kJointed, class T, class F>
 bool EliminateForwardOf(const StepCoefficients& c, bool fresh, StepChain<T>* w,
                         Elimination<F>* solver, F* smallest) {
   const int elements = w->layout.chain_elements;
-  Evaluation<kJointed, T> evaluation(*w);
-  Eliminator<kJointed, T, F> eliminator(c, *w, solver, *smallest);
+  Evaluation<kJointed, T, F> evaluation(c, *w);
+  Eliminator<T, F> eliminator(c, *w, solver, *smallest);
   Evaluated<F> evaluated[2];
   evaluation.Element(0, fresh, &evaluated[0]);
   for (int e = 0; e < elements; ++e) {
     Evaluated<F>&now = evaluated[e % 2], &next = evaluated[(e + 1) % 2];
-    if (fresh) eliminator.Factorise(e, now.state);
+    if (fresh) eliminator.Factorise(e, now.tangent);
     // Between these two, whose operations wait for each other, the processor has this to do.
     if (e + 1 < elements) evaluation.Element(e + 1, fresh, &next);
-    if (fresh) eliminator.Couple(e);
+    if (fresh) eliminator.Couple(e, now.tangent);
     eliminator.Substitute(e, now.lacking);
   }
   if (w->last == elements) {

@@ -1,7 +1,5 @@
 #include "end_part.h"
 
-#include <algorithm>
-
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/math/small_eigen.h"
 
@@ -12,12 +10,12 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 bool Any(const std::array<bool, 3>& held) {
-  return std::any_of(held.begin(), held.end(), [](bool h) { return h; });
+  return held[0] || held[1] || held[2];
 }
 
 /// A section that is held in every rotation has the clamp's very frame.
 bool All(const std::array<bool, 3>& held) {
-  return std::all_of(held.begin(), held.end(), [](bool h) { return h; });
+  return held[0] && held[1] && held[2];
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ struct EndModel {
 
   /// Everything is held: the end's node moves with the clamp.
   bool clamped() const {
-    return translation == std::array{true, true, true} && rotation == std::array{true, true, true};
+    return translation[0] && translation[1] && translation[2] && rotation[0] && rotation[1] &&
+           rotation[2];
   }
 };
 
