@@ -44,6 +44,7 @@ void ChainStepper<T>::MoveIn(int lane, Rod::Impl* rod) {
   rod->MoveOut();
   CopyState(lane, *rod);
   residents_[lane] = rod;
+  dt_of_law_[lane] = 0;
   rod->address.home = this;
   rod->address.lane = lane;
   strains_known_ = false;
@@ -79,13 +80,13 @@ void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const R
       steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
       rod.BeginStep(c, *drives[l].a, *drives[l].b);
     }
-    rod.FillLaw(l, &chain_);
+    rod.FillLaw(l, &chain_, &dt_of_law_[l]);
     chain_.branched |= !rod.branches.empty();
   }
   // Lanes without a rod repeat the first one as it was at first, and never move.
   for (int l = count; l < kLanes && !chain_.layout.halves; ++l) {
     if (!filled_) CopyState(l, *rods[0]);
-    rods[0]->FillLaw(l, &chain_);
+    rods[0]->FillLaw(l, &chain_, &dt_of_law_[l]);
     steps[l].ends = &rods[0]->ends;
   }
   filled_ = true;

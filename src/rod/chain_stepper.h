@@ -34,6 +34,7 @@ class ChainStepper final : public RodHome {
 
   StepChain<T> chain_;
   Rod::Impl* residents_[kLanes] = {};  // whose state is here; of one in halves, in lane 0
+  double dt_of_law_[kLanes] = {};      // of the step for which a lane has its rod's law [s]
   bool strains_known_ = false;         // of the present state
   bool filled_ = false;                // the lanes that no rod uses
 };

@@ -22,10 +22,11 @@ bool All(const std::array<bool, 3>& held) {
 
 EndPart::EndPart(const EndModel& model)
     : model_(model),
+      rigid_(model.clamped()),
       holds_(Any(model.translation) || Any(model.rotation)),
       holds_rotation_(Any(model.rotation)),
       sprung_(model.stiffness.any() || model.damping.any()),
-      active_(!model.clamped() && bears()) {
+      active_(!rigid_ && bears()) {
   // What is held needs no spring.
   for (int k = 0; k < 3; ++k)
     if (model.rotation[k]) model_.stiffness[k] = model_.damping[k] = 0;
@@ -140,6 +141,7 @@ EndPart::Matrix6 EndPart::FreeProjector(const Node<double>& node) const {
 double EndPart::Power(const Node<double>& node, const Vec3<double>& force,
                       const Vec3<double>& moment) const {
   const Motion& C = clamp();
+  if (rigid_) return ToEigen(force).dot(C.v) + ToEigen(moment).dot(C.omega);
   const Vector3d d = ToEigen(node.r) - C.X.p, omega = C.X.q * C.omega;
   return ToEigen(force).dot(C.v + omega.cross(d)) + (ToEigen(node.q) * ToEigen(moment)).dot(omega);
 }

@@ -26,6 +26,9 @@ class EndPart {
   bool active() const { return active_; }
 
   const Motion& clamp() const { return clamp_.motion(); }
+  /// All of what moves it, to be put back where a step fails.
+  const PrescribedMotion& prescribed() const { return clamp_; }
+  void PutBack(const PrescribedMotion& clamp) { clamp_ = clamp; }
   void Start(const Motion& clamp) { clamp_.Start(clamp); }
   void MoveTo(const Pose& clamp, const StepCoefficients& c) { clamp_.MoveTo(clamp, c); }
 
@@ -64,7 +67,7 @@ class EndPart {
   Relative Compare(const Node<double>& node) const;
 
   EndModel model_;
-  bool holds_, holds_rotation_, sprung_, active_;
+  bool rigid_, holds_, holds_rotation_, sprung_, active_;
   PrescribedMotion clamp_;
 };
 

@@ -11,8 +11,10 @@ void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& 
     Fetch();
     energy.Open({EndPower(), 0, 0}, StoredEnergy());
   }
-  law_of_step_ = LawOfStep(c.dt);
-  ends_before_ = ends;
+  if (c.dt != dt_of_law_ || !branches.empty()) law_of_step_ = LawOfStep(c.dt);
+  dt_of_law_ = c.dt;
+  a_before_ = ends.a.prescribed();
+  b_before_ = ends.b.prescribed();
   ends.a.MoveTo(a, c);
   ends.b.MoveTo(b, c);
 }
@@ -33,7 +35,9 @@ void Rod::Impl::FillMasses(int rod_lane, const ChainLayout& layout,
 }
 
 template <class T>
-void Rod::Impl::FillLaw(int rod_lane, StepChain<T>* chain) const {
+void Rod::Impl::FillLaw(int rod_lane, StepChain<T>* chain, double* dt_there) const {
+  if (*dt_there == dt_of_law_ && branches.empty()) return;
+  *dt_there = dt_of_law_;
   const ChainLayout& layout = chain->layout;
   const ShearStep<double> step1 = shear1.step(), step2 = shear2.step();
   const V3 unbend = -Scale(law_of_step_.C_M, ToSmall(model.section.kappa0));
@@ -200,7 +204,7 @@ void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, dou
 
 #define COSSERAT_CABLE_INSTANTIATE(T)                                                            \
   template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<T>>*) const; \
-  template void Rod::Impl::FillLaw(int, StepChain<T>*) const;                                    \
+  template void Rod::Impl::FillLaw(int, StepChain<T>*, double*) const;                           \
   template void Rod::Impl::FillBranches(int, StepChain<T>*);                                     \
   template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
   template void Rod::Impl::TakeState(const StepChain<T>&, int);                                  \

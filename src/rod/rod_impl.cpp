@@ -44,7 +44,6 @@ Rod::Impl::Impl(const RodModel& m)
       missing_a{},
       missing_b{},
       law_of_step_{},
-      ends_before_(ends),
       stress_(m.elements),
       branch_stress_(m.branches.empty() ? 0 : m.elements) {
   for (int i = 0; i < w.count; ++i) {

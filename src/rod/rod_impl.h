@@ -68,12 +68,16 @@ struct Rod::Impl {
   /// Law, offsets and clamps of the step.
   void BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b);
   /// The clamps are where they were: the step begun has failed.
-  void TakeBackStep() { ends = ends_before_; }
+  void TakeBackStep() {
+    ends.a.PutBack(a_before_);
+    ends.b.PutBack(b_before_);
+  }
   template <class T>
   void FillMasses(int lane, const ChainLayout& layout, std::vector<NodeMass<T>>* masses) const;
-  /// The law of the step, into a lane of a chain or into both halves.
+  /// The law of the step, into a lane of a chain or into both halves, unless this rod's for steps as
+  /// long [s] is there and does not change from step to step.
   template <class T>
-  void FillLaw(int lane, StepChain<T>* chain) const;
+  void FillLaw(int lane, StepChain<T>* chain, double* dt_there) const;
   /// What the branches add to the offsets of the chain.
   template <class T>
   void FillBranches(int lane, StepChain<T>* chain);
@@ -116,8 +120,9 @@ struct Rod::Impl {
   double EndPower() const;
   void AccountForStep(double dt, double load_power);
 
-  ElementLaw<double> law_of_step_;          // of the step begun
-  EndParts ends_before_;                    // its start
+  double dt_of_law_ = 0;                     // of the last step begun [s]
+  ElementLaw<double> law_of_step_;           // of that step
+  PrescribedMotion a_before_, b_before_;     // clamps at its start
   double dissipation_rate_ = 0;             // of the sections [W]
   std::vector<ElementStress> stress_;       // by element
   std::vector<SectionValue> branch_stress_;  // the branches' part of it
