@@ -13,6 +13,7 @@ find_package(catkin REQUIRED COMPONENTS
   message_generation
   rosbag_storage
   roscpp
+  roslz4
   sensor_msgs
   std_msgs
   tf2
@@ -39,7 +40,7 @@ catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ${rooms}
   CATKIN_DEPENDS diagnostic_msgs geometry_msgs message_runtime rosbag_storage roscpp
-    sensor_msgs std_msgs tf2 tf2_msgs visualization_msgs
+    roslz4 sensor_msgs std_msgs tf2 tf2_msgs visualization_msgs
   DEPENDS EIGEN3
 )
 
