@@ -80,7 +80,7 @@ double NearestBody::Improve(const Pair& pair, double nearest) {
   return nearest;
 }
 
-double NearestBody::Distance(const std::vector<Pose>& nodes_W,
+double NearestBody::Distance(const std::vector<Eigen::Vector3d>& nodes_W,
                              const std::vector<Motion>& bodies_W) {
   nodes_W_.Assign(nodes_W);
   for (std::size_t b = 0; b < bodies_.size(); ++b) nodes_B_[b].Assign(nodes_W_, bodies_W[b].X);

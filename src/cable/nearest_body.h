@@ -15,7 +15,7 @@ class NearestBody {
 
   /// Smallest signed distance [m] from the centreline to any body; +infinity where all are beyond
   /// reach.
-  double Distance(const std::vector<Pose>& nodes_W, const std::vector<Motion>& bodies_W);
+  double Distance(const std::vector<Eigen::Vector3d>& nodes_W, const std::vector<Motion>& bodies_W);
 
  private:
   /// An element against one body, its ends in the body's frame [m].

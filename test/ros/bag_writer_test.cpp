@@ -31,6 +31,7 @@ std_msgs::Float64 Number(int i) {
 
 TEST(BagWriterTest, RosbagReadsWhatIsWritten) {
   const std::string path = TemporaryPath("bag_writer_test.bag");
+  std::filesystem::remove(path);
   constexpr int kMessages = 300;  // of 10 kB: several chunks
   {
     BagWriter writer(path);

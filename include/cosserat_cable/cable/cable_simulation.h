@@ -71,6 +71,8 @@ class CableSimulation {
 
   /// Centreline and section frames at the `elements + 1` nodes, in W.
   const std::vector<Pose>& nodes() const;
+  /// One of them.
+  Pose node(int i) const;
   /// Magnitude of the bending curvature in each element [1/m], `elements` values.
   std::vector<double> curvatures() const;
   std::vector<ContactPoint> contacts() const;
