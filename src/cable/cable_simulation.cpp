@@ -185,7 +185,26 @@ std::vector<rod::Mode> CableSimulation::FindModes(int count) const {
 }
 
 CableReport CableSimulation::Report() {
-  Impl& m = *impl_;
+  CableReport report = ReportForces();
+  report.clearance = Clearance(posture());
+  return report;
+}
+
+CablePosture CableSimulation::posture() const {
+  CablePosture posture;
+  posture.nodes.reserve(static_cast<std::size_t>(impl_->model.elements) + 1);
+  for (int i = 0; i <= impl_->model.elements; ++i)
+    posture.nodes.push_back(ToEigen(impl_->rod.position(i)));
+  posture.obstacles = impl_->now.obstacles;
+  return posture;
+}
+
+double CableSimulation::Clearance(const CablePosture& posture) {
+  return impl_->nearest.Distance(posture.nodes, posture.obstacles) - 0.5 * impl_->model.diameter;
+}
+
+CableReport CableSimulation::ReportForces() const {
+  const Impl& m = *impl_;
   const double h = m.model.length / m.model.elements;
   CableReport report;
   const int e = std::clamp(static_cast<int>(m.model.apex_s / h), 0, m.model.elements - 1);
@@ -198,8 +217,6 @@ CableReport CableSimulation::Report() {
     report.curvature_max = std::max(report.curvature_max, m.rod.curvature(i).head<2>().norm());
     report.tension_max = std::max(report.tension_max, m.rod.force(i).z());
   }
-  m.TakePositions();
-  report.clearance = m.nearest.Distance(m.positions, m.now.obstacles) - 0.5 * m.model.diameter;
   for (const ContactPoint& point : contacts()) report.contact_force += point.force_W.norm();
   const rod::Wrench a = m.rod.reaction_a(), b = m.rod.reaction_b();
   report.force_a = a.force;
