@@ -13,9 +13,9 @@ find_package(catkin REQUIRED COMPONENTS
   message_generation
   rosbag_storage
   roscpp
+  roslz4
   sensor_msgs
   std_msgs
-  tf2
   tf2_msgs
   visualization_msgs
 )
@@ -39,7 +39,7 @@ catkin_package(
   INCLUDE_DIRS include
   LIBRARIES ${rooms}
   CATKIN_DEPENDS diagnostic_msgs geometry_msgs message_runtime rosbag_storage roscpp
-    sensor_msgs std_msgs tf2 tf2_msgs visualization_msgs
+    roslz4 sensor_msgs std_msgs tf2_msgs visualization_msgs
   DEPENDS EIGEN3
 )
 
@@ -99,6 +99,7 @@ install(DIRECTORY scripts/pylib DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 if(CATKIN_ENABLE_TESTING)
   find_package(GTest REQUIRED)
   find_package(rostest REQUIRED)
+  find_package(tf2 REQUIRED)
   set(tools ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 
   file(GLOB sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
@@ -107,7 +108,8 @@ if(CATKIN_ENABLE_TESTING)
     target_include_directories(ros_test PRIVATE test)
     target_compile_definitions(ros_test PRIVATE
       COSSERAT_CABLE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}")
-    target_link_libraries(ros_test cosserat_cable_ros GTest::gtest_main)
+    target_include_directories(ros_test SYSTEM PRIVATE ${tf2_INCLUDE_DIRS})
+    target_link_libraries(ros_test cosserat_cable_ros ${tf2_LIBRARIES} GTest::gtest_main)
     add_test(NAME ros_test COMMAND ros_test)
     add_dependencies(tests ros_test)
   endif()

@@ -111,7 +111,7 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
   m.contact.Search(m.positions, now.obstacles);
   m.contact.Accept();
   m.rod.AddRigidMotion(now.a);
-  m.UpdateNodes();
+  m.nodes_are_known = false;
   outcome.ok = true;
   return outcome;
 }
@@ -161,12 +161,13 @@ StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& th
     }
   }
   now = then;
-  UpdateNodes();
+  nodes_are_known = false;
   return outcome;
 }
 
 const CableModel& CableSimulation::model() const { return impl_->model; }
-const std::vector<Pose>& CableSimulation::nodes() const { return impl_->nodes; }
+const std::vector<Pose>& CableSimulation::nodes() const { return impl_->Nodes(); }
+Pose CableSimulation::node(int i) const { return impl_->rod.pose(i); }
 
 std::vector<double> CableSimulation::curvatures() const {
   std::vector<double> curvatures(impl_->model.elements);
@@ -184,12 +185,31 @@ std::vector<rod::Mode> CableSimulation::FindModes(int count) const {
 }
 
 CableReport CableSimulation::Report() {
-  Impl& m = *impl_;
+  CableReport report = ReportForces();
+  report.clearance = Clearance(posture());
+  return report;
+}
+
+CablePosture CableSimulation::posture() const {
+  CablePosture posture;
+  posture.nodes.reserve(static_cast<std::size_t>(impl_->model.elements) + 1);
+  for (int i = 0; i <= impl_->model.elements; ++i)
+    posture.nodes.push_back(ToEigen(impl_->rod.position(i)));
+  posture.obstacles = impl_->now.obstacles;
+  return posture;
+}
+
+double CableSimulation::Clearance(const CablePosture& posture) {
+  return impl_->nearest.Distance(posture.nodes, posture.obstacles) - 0.5 * impl_->model.diameter;
+}
+
+CableReport CableSimulation::ReportForces() const {
+  const Impl& m = *impl_;
   const double h = m.model.length / m.model.elements;
   CableReport report;
   const int e = std::clamp(static_cast<int>(m.model.apex_s / h), 0, m.model.elements - 1);
   const double xi = m.model.apex_s / h - e;
-  report.apex = (1 - xi) * m.nodes[e].p + xi * m.nodes[e + 1].p;
+  report.apex = (1 - xi) * ToEigen(m.rod.position(e)) + xi * ToEigen(m.rod.position(e + 1));
   report.apex_velocity =
       (1 - xi) * ToEigen(m.rod.velocity(e)) + xi * ToEigen(m.rod.velocity(e + 1));
   report.tension_max = -std::numeric_limits<double>::infinity();
@@ -197,7 +217,6 @@ CableReport CableSimulation::Report() {
     report.curvature_max = std::max(report.curvature_max, m.rod.curvature(i).head<2>().norm());
     report.tension_max = std::max(report.tension_max, m.rod.force(i).z());
   }
-  report.clearance = m.nearest.Distance(m.nodes, m.now.obstacles) - 0.5 * m.model.diameter;
   for (const ContactPoint& point : contacts()) report.contact_force += point.force_W.norm();
   const rod::Wrench a = m.rod.reaction_a(), b = m.rod.reaction_b();
   report.force_a = a.force;

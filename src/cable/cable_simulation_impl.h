@@ -15,8 +15,12 @@ struct CableSimulation::Impl {
   Impl(const CableModel& m, const std::vector<const Body*>& bodies, const Eigen::Vector3d& gravity,
        double clearance_reach);
 
-  void UpdateNodes() {
-    for (int i = 0; i <= model.elements; ++i) nodes[i] = rod.pose(i);
+  /// Of the present state.
+  const std::vector<Pose>& Nodes() {
+    if (!nodes_are_known)
+      for (int i = 0; i <= model.elements; ++i) nodes[i] = rod.pose(i);
+    nodes_are_known = true;
+    return nodes;
   }
   /// Present positions into the scratch array.
   void TakePositions() {
@@ -33,7 +37,7 @@ struct CableSimulation::Impl {
   void Accept(const Surroundings& then) {
     contact.Accept();
     now = then;
-    UpdateNodes();
+    nodes_are_known = false;
   }
   /// The step in halves, and halves of halves, after it did not converge as a whole. A step that
   /// fails leaves the state as it was.
@@ -45,7 +49,8 @@ struct CableSimulation::Impl {
   ContactSet contact;
   NearestBody nearest;
   Surroundings now;
-  std::vector<Pose> nodes;
+  std::vector<Pose> nodes;  // of the state that was last asked for
+  bool nodes_are_known = false;
   std::vector<Eigen::Vector3d> positions;  // scratch: where contact is searched
 };
 

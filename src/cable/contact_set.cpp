@@ -76,7 +76,6 @@ bool ContactSet::OutOfReach(std::size_t body, std::size_t element, const Eigen::
                             const Eigen::Vector3d& right_B) {
   ElementWatches& watches = watches_[body];
   const double needed = radius_ + kMargin;
-  if (watches.DistanceAt(element, left_B, right_B) > needed) return true;
   const double half = 0.5 * (right_B - left_B).norm();
   const bool known = known_[body * elements() + element];
   // Sites that remember something look for themselves, as long as one of them is close.
@@ -129,13 +128,13 @@ void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
     const Motion& motion = bodies_W[b];
     nodes_B_.Assign(nodes_W_, motion.X);
-    if (!watches_[b].AnyWithin(needed, nodes_B_)) continue;
+    const std::vector<std::size_t>& near = watches_[b].Within(needed, nodes_B_);
+    if (near.empty()) continue;
     if (!half) half = 0.5 * nodes_W_.LongestStep();
     if (OutOfReach(b, *half)) continue;
     const Eigen::Matrix3d R_WB = motion.X.q.toRotationMatrix();
     const Place place = {b, motion, R_WB, R_WB * motion.omega};
-    for (std::size_t e = 0; e < elements(); ++e) {
-      if (!HasSites(e)) continue;
+    for (const std::size_t e : near) {
       const Eigen::Vector3d left_B = nodes_B_[e], right_B = nodes_B_[e + 1];
       if (!OutOfReach(b, e, left_B, right_B)) SearchSites(place, e, left_B, right_B);
     }

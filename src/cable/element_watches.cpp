@@ -13,10 +13,10 @@ constexpr std::size_t kStep = Lanes::kCount;
 
 std::size_t RoundedUp(std::size_t count) { return (count + kStep - 1) / kStep * kStep; }
 
-// How far the farthest-moving element has moved beyond what it may, in squares of lengths.
+// How far each element has moved beyond what it may, in squares of lengths; returns the largest.
 COSSERAT_CABLE_KERNEL
-double LargestExcess(std::size_t stride, const double* watches, double distance, const double* x,
-                     const double* y, const double* z) {
+double Excess(std::size_t stride, const double* watches, double distance, const double* x,
+              const double* y, const double* z, double* excess) {
   Lanes worst(-1.0);
   for (std::size_t i = 0; i < stride; i += kStep) {
     const double* then = watches + i;
@@ -28,7 +28,9 @@ double LargestExcess(std::size_t stride, const double* watches, double distance,
                 bz = LoadLanes(z + i + 1) - LoadLanes(then + 5 * stride);
     const Lanes way = Max(ax * ax + ay * ay + az * az, bx * bx + by * by + bz * bz);
     const Lanes may = Max(LoadLanes(then + 6 * stride) - Lanes(distance), Lanes(0.0));
-    worst = Max(way - may * may, worst);
+    const Lanes beyond = way - may * may;
+    StoreLanes(beyond, excess + i);
+    worst = Max(beyond, worst);
   }
   return std::max({worst[0], worst[1], worst[2], worst[3]});
 }
@@ -36,7 +38,10 @@ double LargestExcess(std::size_t stride, const double* watches, double distance,
 }  // namespace
 
 ElementWatches::ElementWatches(std::size_t elements)
-    : elements_(elements), stride_(RoundedUp(elements)), data_(stride_ * kRows, 0.0) {
+    : elements_(elements),
+      stride_(RoundedUp(elements)),
+      data_(stride_ * kRows, 0.0),
+      excess_(stride_) {
   std::fill_n(Row(kDistance), elements, -kInfinity);
   // What only fills up the last step never comes near.
   std::fill(Row(kDistance) + elements, Row(kDistance) + stride_, kInfinity);
@@ -73,8 +78,14 @@ double ElementWatches::DistanceAt(std::size_t element, const Eigen::Vector3d& le
   return distance(element) - std::sqrt(std::max(left, right));
 }
 
-bool ElementWatches::AnyWithin(double distance, const PointRows& nodes_B) const {
-  return LargestExcess(stride_, data_.data(), distance, nodes_B.x(), nodes_B.y(), nodes_B.z()) >= 0;
+const std::vector<std::size_t>& ElementWatches::Within(double distance, const PointRows& nodes_B) {
+  within_.clear();
+  const double largest = Excess(stride_, data_.data(), distance, nodes_B.x(), nodes_B.y(),
+                                nodes_B.z(), excess_.data());
+  if (largest < 0) return within_;
+  for (std::size_t e = 0; e < elements_; ++e)
+    if (excess_[e] >= 0) within_.push_back(e);
+  return within_;
 }
 
 }  // namespace cosserat_cable

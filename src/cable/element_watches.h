@@ -31,8 +31,9 @@ class ElementWatches {
   /// A lower bound of the distance [m] with the ends where they are now.
   double DistanceAt(std::size_t element, const Eigen::Vector3d& left_B,
                     const Eigen::Vector3d& right_B) const;
-  /// False where every element is farther than `distance` [m] by its bound.
-  bool AnyWithin(double distance, const PointRows& nodes_B) const;
+  /// The elements that are not farther than `distance` [m] by their bounds. Valid until asked
+  /// again.
+  const std::vector<std::size_t>& Within(double distance, const PointRows& nodes_B);
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -44,6 +45,8 @@ class ElementWatches {
 
   std::size_t elements_, stride_;
   std::vector<double> data_;
+  std::vector<double> excess_;       // scratch, of the last question
+  std::vector<std::size_t> within_;  // its answer
 };
 
 }  // namespace cosserat_cable

@@ -24,6 +24,7 @@ NearestBody::NearestBody(std::vector<ContactSite> sites, std::vector<const Body*
       reach_(reach),
       first_sites_(FirstSites(sites_)),
       watches_(bodies_.size(), ElementWatches(elements())),
+      feet_B_(bodies_.size() * elements(), Eigen::Vector3d::Constant(kNever)),
       nodes_B_(bodies_.size()) {
   for (ElementWatches& watches : watches_)
     for (std::size_t e = 0; e < elements(); ++e)
@@ -49,6 +50,7 @@ double NearestBody::Improve(const Pair& pair, double nearest) {
   const int* first = &first_sites_[pair.element];
   const int middle = (first[0] + first[1]) / 2;
   double known_at = 0, known = kNever;
+  Eigen::Vector3d& foot_B = feet_B_[pair.body * elements() + pair.element];
   const auto look = [&](int i) {
     const double xi = sites_[i].xi;
     const double way = std::abs(xi - known_at) * length;
@@ -56,9 +58,14 @@ double NearestBody::Improve(const Pair& pair, double nearest) {
       bound = std::min(bound, known - way);
       return;
     }
-    // Where nothing is within the limit, the others of this element are hardly nearer.
-    const double reach = std::min(limit + 0.5 * length, known + way + kRounding);
-    known = std::min(reach, body.Query(pair.left_B + xi * along_B, reach).distance);
+    const Eigen::Vector3d p_B = pair.left_B + xi * along_B;
+    // Where nothing is within the limit, the others of this element are hardly nearer. The body is
+    // no farther than a point of it that is known.
+    const double reach = std::min(
+        {limit + 0.5 * length, known + way + kRounding, (p_B - foot_B).norm() + kRounding});
+    const Clearance found = body.Query(p_B, reach);
+    if (found.shape >= 0) foot_B = found.nearest;
+    known = std::min(reach, found.distance);
     known_at = xi;
     bound = std::min(bound, known);
     nearest = std::min(nearest, known);
@@ -73,7 +80,7 @@ double NearestBody::Improve(const Pair& pair, double nearest) {
   return nearest;
 }
 
-double NearestBody::Distance(const std::vector<Pose>& nodes_W,
+double NearestBody::Distance(const std::vector<Eigen::Vector3d>& nodes_W,
                              const std::vector<Motion>& bodies_W) {
   nodes_W_.Assign(nodes_W);
   for (std::size_t b = 0; b < bodies_.size(); ++b) nodes_B_[b].Assign(nodes_W_, bodies_W[b].X);
@@ -94,9 +101,10 @@ double NearestBody::Distance(const std::vector<Pose>& nodes_W,
     look(likely_body, likely_element);
   const double half = 0.5 * nodes_W_.LongestStep();
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!watches_[b].AnyWithin(nearest, nodes_B_[b])) continue;
+    const std::vector<std::size_t>& near = watches_[b].Within(nearest, nodes_B_[b]);
+    if (near.empty()) continue;
     if (nearest >= 0 && bodies_[b]->IsBeyond(nearest + half, nodes_B_[b])) continue;
-    for (std::size_t e = 0; e < elements(); ++e)
+    for (const std::size_t e : near)
       if (b != likely_body || e != likely_element) look(b, e);
   }
   return nearest < reach_ ? nearest : std::numeric_limits<double>::infinity();

@@ -15,7 +15,7 @@ class NearestBody {
 
   /// Smallest signed distance [m] from the centreline to any body; +infinity where all are beyond
   /// reach.
-  double Distance(const std::vector<Pose>& nodes_W, const std::vector<Motion>& bodies_W);
+  double Distance(const std::vector<Eigen::Vector3d>& nodes_W, const std::vector<Motion>& bodies_W);
 
  private:
   /// An element against one body, its ends in the body's frame [m].
@@ -36,6 +36,8 @@ class NearestBody {
   double reach_;
   std::vector<int> first_sites_;
   std::vector<ElementWatches> watches_;  // by body
+  /// Body-major, by element: the body's point that was the nearest to one of its sites last.
+  std::vector<Eigen::Vector3d> feet_B_;
   PointRows nodes_W_;
   std::vector<PointRows> nodes_B_;                // by body
   std::size_t last_body_ = 0, last_element_ = 0;  // which were the nearest last time

@@ -39,13 +39,19 @@ struct Radii {
 
 Radii RadiiAbout(int axis, const TriangleMesh& mesh) {
   Radii radii;
+  double outer_squared = 0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     const Eigen::Vector2d a = Across(mesh.vertices[t[0]], axis);
     const Eigen::Vector2d b = Across(mesh.vertices[t[1]], axis);
     const Eigen::Vector2d c = Across(mesh.vertices[t[2]], axis);
-    radii.inner = std::min(radii.inner, OriginToTriangle(a, b, c));
-    radii.outer = std::max({radii.outer, a.norm(), b.norm(), c.norm()});
+    outer_squared = std::max({outer_squared, a.squaredNorm(), b.squaredNorm(), c.squaredNorm()});
+    // All of a triangle is as near to a corner as the farther other one.
+    const double extent = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
+    const double reach = radii.inner + extent;
+    if (a.squaredNorm() < reach * reach)
+      radii.inner = std::min(radii.inner, OriginToTriangle(a, b, c));
   }
+  radii.outer = std::sqrt(outer_squared);
   return radii;
 }
 

@@ -60,7 +60,7 @@ class Welder {
   int Find(const Eigen::Vector3d& v, const Cell& cell) const {
     const auto found = cells_.find(cell);
     if (found == cells_.end()) return -1;
-    for (int i : found->second) {
+    for (int i = found->second.first; i >= 0; i = next_[i]) {
       if ((vertices[i] - v).cwiseAbs().maxCoeff() <= tolerance_) return i;
     }
     return -1;
@@ -69,13 +69,22 @@ class Welder {
   int AddOrFind(const Eigen::Vector3d& v, const Cell& cell) {
     const int found = Find(v, cell);
     if (found >= 0) return found;
+    const int added = static_cast<int>(vertices.size());
     vertices.push_back(v);
-    cells_[cell].push_back(static_cast<int>(vertices.size()) - 1);
-    return static_cast<int>(vertices.size()) - 1;
+    next_.push_back(-1);
+    const auto [entry, is_new] = cells_.emplace(cell, Chain{added, added});
+    if (!is_new) next_[std::exchange(entry->second.last, added)] = added;
+    return added;
   }
 
+  /// The vertices of a cell, in the order in which they came.
+  struct Chain {
+    int first, last;
+  };
+
   double tolerance_, cell_;
-  std::unordered_map<Cell, std::vector<int>, Hash> cells_;
+  std::unordered_map<Cell, Chain, Hash> cells_;
+  std::vector<int> next_;  // of a vertex in its cell; -1: none
 };
 
 bool RepeatsAVertex(const Eigen::Vector3i& t) {
@@ -89,14 +98,15 @@ class SliverRemover {
       : vertices_(vertices), least_height_(least_height) {}
 
   void Add(const Eigen::Vector3i& triangle) {
-    if (RepeatsAVertex(triangle)) return;
-    triangles_.push_back(triangle);
-    SetEdges(static_cast<int>(triangles_.size()) - 1);
+    if (!RepeatsAVertex(triangle)) triangles_.push_back(triangle);
   }
 
   std::vector<Eigen::Vector3i> Finish() {
-    std::vector<int> suspects(triangles_.size());
-    for (std::size_t i = 0; i < suspects.size(); ++i) suspects[i] = static_cast<int>(i);
+    std::vector<int> suspects;
+    for (std::size_t i = 0; i < triangles_.size(); ++i)
+      if (SliverCorner(triangles_[i]) >= 0) suspects.push_back(static_cast<int>(i));
+    if (suspects.empty()) return triangles_;
+    for (std::size_t i = 0; i < triangles_.size(); ++i) SetEdges(static_cast<int>(i));
     // Each removal merges one edge; the bound only keeps a tangle of slivers from going in circles.
     std::size_t left = 4 * triangles_.size() + 16;
     while (!suspects.empty()) {

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
+#include <tuple>
 
 namespace cosserat_cable {
 namespace {
@@ -18,20 +18,34 @@ struct Edge {
   bool rising;  // the triangle runs from low to high
 };
 
-// All edges, those between the same two vertices next to each other.
-std::vector<Edge> SortedEdges(const std::vector<Eigen::Vector3i>& triangles) {
-  std::vector<Edge> edges;
-  edges.reserve(3 * triangles.size());
+template <typename Visit>
+void ForEachEdge(const std::vector<Eigen::Vector3i>& triangles, Visit visit) {
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (int k = 0; k < 3; ++k) {
       const int from = triangles[i][k], to = triangles[i][(k + 1) % 3];
-      edges.push_back({std::min(from, to), std::max(from, to), static_cast<int>(i), k, from < to});
+      visit(Edge{std::min(from, to), std::max(from, to), static_cast<int>(i), k, from < to});
     }
   }
-  std::sort(edges.begin(), edges.end(), [](const Edge& a, const Edge& b) {
-    return std::tie(a.low, a.high, a.triangle, a.side) <
-           std::tie(b.low, b.high, b.triangle, b.side);
-  });
+}
+
+// All edges of a mesh with so many vertices, those between the same two next to each other.
+std::vector<Edge> SortedEdges(const TriangleMesh& mesh) {
+  // By their lower vertex first, which has few: counted, then put in place.
+  std::vector<std::size_t> begin(mesh.vertices.size() + 1, 0);
+  ForEachEdge(mesh.triangles,
+              [&](const Edge& edge) { ++begin[static_cast<std::size_t>(edge.low) + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Edge> edges(3 * mesh.triangles.size());
+  std::vector<std::size_t> next = begin;
+  ForEachEdge(mesh.triangles,
+              [&](const Edge& edge) { edges[next[static_cast<std::size_t>(edge.low)]++] = edge; });
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    const auto first = edges.begin() + static_cast<std::ptrdiff_t>(begin[v]);
+    const auto last = edges.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]);
+    std::sort(first, last, [](const Edge& a, const Edge& b) {
+      return std::tie(a.high, a.triangle, a.side) < std::tie(b.high, b.triangle, b.side);
+    });
+  }
   return edges;
 }
 
@@ -60,18 +74,26 @@ class UnionFind {
   std::vector<int> parent_;
 };
 
-TriangleMesh Extract(const TriangleMesh& mesh, const std::vector<int>& triangles) {
+// Some of the triangles with their vertices. `names`: -1 for each of the mesh's vertices, and so
+// again afterwards.
+TriangleMesh Extract(const TriangleMesh& mesh, const std::vector<int>& triangles,
+                     std::vector<int>* names) {
   TriangleMesh part;
-  std::map<int, int> renamed;
+  std::vector<int> used;
   for (int i : triangles) {
     Eigen::Vector3i t = mesh.triangles[i];
     for (int& v : t) {
-      const auto [entry, is_new] = renamed.emplace(v, static_cast<int>(part.vertices.size()));
-      if (is_new) part.vertices.push_back(mesh.vertices[v]);
-      v = entry->second;
+      int& name = (*names)[v];
+      if (name < 0) {
+        name = static_cast<int>(part.vertices.size());
+        part.vertices.push_back(mesh.vertices[v]);
+        used.push_back(v);
+      }
+      v = name;
     }
     part.triangles.push_back(t);
   }
+  for (int v : used) (*names)[v] = -1;
   return part;
 }
 
@@ -135,7 +157,7 @@ OrientedMesh Orient(TriangleMesh mesh, bool closed) {
   }
   for (Eigen::Vector3d& normal : result.corner_normals) normal = NormalizedOrZero(normal);
 
-  ForEachRun(SortedEdges(mesh.triangles), [&](auto first, auto last) {
+  ForEachRun(SortedEdges(mesh), [&](auto first, auto last) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (auto e = first; e != last; ++e) sum += result.faces[e->triangle].normal;
     sum = NormalizedOrZero(sum);
@@ -182,7 +204,7 @@ bool OrientedMesh::IsRim(int triangle, Feature feature) const {
 }
 
 std::vector<OrientedMesh> SplitIntoParts(const TriangleMesh& mesh) {
-  const std::vector<Edge> edges = SortedEdges(mesh.triangles);
+  const std::vector<Edge> edges = SortedEdges(mesh);
   UnionFind connected(mesh.triangles.size());
   std::vector<bool> watertight(mesh.triangles.size(), true);
   ForEachRun(edges, [&](auto first, auto last) {
@@ -193,21 +215,23 @@ std::vector<OrientedMesh> SplitIntoParts(const TriangleMesh& mesh) {
     }
   });
 
-  // Keyed by the part's first triangle: the order of parts follows that of the file.
-  std::map<int, int> part_of_root;
+  // In the order of their first triangles in the file.
+  std::vector<int> part_of_root(mesh.triangles.size(), -1);
   std::vector<std::vector<int>> members;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-    const auto [entry, is_new] =
-        part_of_root.emplace(connected.Root(static_cast<int>(i)), static_cast<int>(members.size()));
-    if (is_new) members.emplace_back();
-    members[entry->second].push_back(static_cast<int>(i));
+    int& part = part_of_root[connected.Root(static_cast<int>(i))];
+    if (part < 0) {
+      part = static_cast<int>(members.size());
+      members.emplace_back();
+    }
+    members[part].push_back(static_cast<int>(i));
   }
 
   std::vector<OrientedMesh> parts;
-  std::vector<int> open;
+  std::vector<int> open, names(mesh.vertices.size(), -1);
   for (const std::vector<int>& part : members) {
     if (std::all_of(part.begin(), part.end(), [&](int i) { return watertight[i]; })) {
-      OrientedMesh oriented = Orient(Extract(mesh, part), true);
+      OrientedMesh oriented = Orient(Extract(mesh, part, &names), true);
       if (oriented.closed) {
         parts.push_back(std::move(oriented));
         continue;
@@ -217,7 +241,7 @@ std::vector<OrientedMesh> SplitIntoParts(const TriangleMesh& mesh) {
   }
   if (!open.empty()) {
     std::sort(open.begin(), open.end());
-    parts.push_back(Orient(Extract(mesh, open), false));
+    parts.push_back(Orient(Extract(mesh, open, &names), false));
   }
   return parts;
 }

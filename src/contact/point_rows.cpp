@@ -50,28 +50,15 @@ void PointRows::Resize(std::size_t size) {
   data_.assign(3 * stride_, 0.0);
 }
 
-template <class PointOf>
-void PointRows::Fill(std::size_t size, const PointOf& point_of) {
-  Resize(size);
-  if (size == 0) return;
-  for (std::size_t i = 0; i < size; ++i) {
-    const Eigen::Vector3d& p = point_of(i);
+void PointRows::Assign(const std::vector<Eigen::Vector3d>& points) {
+  Resize(points.size());
+  if (points.empty()) return;
+  for (std::size_t i = 0; i < stride_; ++i) {
+    const Eigen::Vector3d& p = points[std::min(i, size_ - 1)];
     data_[i] = p.x();
     data_[stride_ + i] = p.y();
     data_[2 * stride_ + i] = p.z();
   }
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    double* row = data_.data() + axis * stride_;
-    std::fill(row + size, row + stride_, row[size - 1]);
-  }
-}
-
-void PointRows::Assign(const std::vector<Eigen::Vector3d>& points) {
-  Fill(points.size(), [&](std::size_t i) -> const Eigen::Vector3d& { return points[i]; });
-}
-
-void PointRows::Assign(const std::vector<Pose>& poses) {
-  Fill(poses.size(), [&](std::size_t i) -> const Eigen::Vector3d& { return poses[i].p; });
 }
 
 void PointRows::Assign(const PointRows& points_W, const Pose& X_WB) {

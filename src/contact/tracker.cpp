@@ -1,6 +1,7 @@
 #include "cosserat_cable/contact/tracker.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cosserat_cable {
 namespace {
@@ -23,7 +24,8 @@ TrackedClearance ContactTracker::Look(const Body& body, const Eigen::Vector3d& p
     seen.distance = box_distance;
     return seen;
   }
-  const Clearance direct = body.Query(p_B, reach);
+  // The nearest surface is where the last one was, or nearer: the search ends there.
+  const Clearance direct = body.Query(p_B, std::min(reach, at_most_ + way + kRounding));
   if (direct.shape < 0) {
     seen.distance = std::max(reach, box_distance);
     return seen;
@@ -36,12 +38,14 @@ TrackedClearance ContactTracker::Look(const Body& body, const Eigen::Vector3d& p
   if (near_side && (inside || (turned && may_have_crossed))) {
     TrackedClearance proxied = LookFromProxy(body, p_B, radius, reach);
     proxied.crossed = turned;
+    proxied.at_most = std::abs(direct.distance);
     // Farther off, the point would not be touching on that side: the memory no longer applies.
     if (proxied.distance <= radius) return proxied;
   }
   seen.distance = direct.distance;
   seen.nearest = direct.nearest;
   seen.normal = direct.normal;
+  seen.at_most = std::abs(direct.distance);
   seen.exact = true;
   return seen;
 }
@@ -72,6 +76,7 @@ void ContactTracker::Accept(const Eigen::Vector3d& p_B, const TrackedClearance& 
   known_ = true;
   has_side_ = seen.exact;
   distance_ = seen.distance;
+  at_most_ = seen.at_most;
   p_B_ = p_B;
   nearest_ = seen.nearest;
   normal_ = seen.normal;

@@ -9,13 +9,14 @@
 #include "cosserat_cable/math/motion_between.h"
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/math/spline_weights.h"
+#include "turn_sums.h"
 
 namespace cosserat_cable {
 namespace {
 
 constexpr double kMinStep = 1e-6;       // [s]
 constexpr double kMaxNormError = 0.01;  // of a quaternion: rounding in text files, not a mistake
-constexpr double kSmallTurn = 1;        // [rad] across a window
+constexpr double kMuchTurning = 1;      // [rad] across a window
 constexpr std::size_t kPeriodsToSettle = 4;
 constexpr std::size_t kPeriodsKept = 9;
 constexpr int kMaxWindow = 2 * PoseCurve::kWindow + 1;
@@ -58,6 +59,24 @@ Eigen::Vector3d LogNear(const Eigen::Quaterniond& q, const Eigen::Vector3d& prev
   if ((phi - previous).squaredNorm() <= M_PI * M_PI || phi.isZero(0)) return phi;
   const Eigen::Vector3d other = phi * (1 - 2 * M_PI / phi.norm());
   return (other - previous).squaredNorm() < (phi - previous).squaredNorm() ? other : phi;
+}
+
+// The sums over logarithms of turns which may each be more than half a turn away from the knot's,
+// but not from the one before it on the way there.
+void SumUpLargeTurns(const WeightedPoses& poses, const SplineWeights& weights, int centre,
+                     int count, WeightedSums* sums) {
+  sums->d_phi.setZero();
+  sums->dd_phi.setZero();
+  Eigen::Vector3d phi;
+  const auto add = [&](int k) {
+    phi = LogNear({poses.w[k], poses.qx[k], poses.qy[k], poses.qz[k]}, phi);
+    sums->d_phi += weights.first[k] * phi;
+    sums->dd_phi += weights.second[k] * phi;
+  };
+  phi.setZero();
+  for (int k = centre + 1; k < count; ++k) add(k);
+  phi.setZero();
+  for (int k = centre - 1; k >= 0; --k) add(k);
 }
 
 }  // namespace
@@ -192,26 +211,21 @@ Motion PoseCurve::MotionAt(int knot, const Window& window) const {
     return RotationLog(to_here * knots_[window.begin + k].motion.X.q);
   };
   Eigen::Vector3d spin = (turn_to(after) - turn_to(before)) / (times[after] - times[before]);
-  const bool spinning = spin.norm() * (times[count - 1] - times[0]) > kSmallTurn;
+  const bool spinning = spin.norm() * (times[count - 1] - times[0]) > kMuchTurning;
   if (!spinning) spin.setZero();
 
-  Eigen::Vector3d d_psi = Eigen::Vector3d::Zero(), dd_psi = Eigen::Vector3d::Zero();
-  const auto add = [&](int k, Eigen::Vector3d* psi) {
+  WeightedPoses poses;
+  for (int k = 0; k < count; ++k) {
     const Pose& X = knots_[window.begin + k].motion.X;
-    Eigen::Quaterniond turn = to_here * X.q;
-    if (spinning) turn = RotationExp(-times[k] * spin) * turn;
-    *psi = LogNear(turn, *psi);
-    d_psi += weights.first[k] * *psi;
-    dd_psi += weights.second[k] * *psi;
-    motion.v += weights.first[k] * (X.p - here.p);
-    motion.a += weights.second[k] * (X.p - here.p);
-  };
-  Eigen::Vector3d psi = Eigen::Vector3d::Zero();
-  for (int k = centre + 1; k < count; ++k) add(k, &psi);
-  psi.setZero();
-  for (int k = centre - 1; k >= 0; --k) add(k, &psi);
-  motion.omega = spin + d_psi;
-  motion.alpha = dd_psi + spin.cross(d_psi);
+    const Eigen::Quaterniond turn = to_here * X.q;
+    poses.Set(k, X.p - here.p, spinning ? RotationExp(-times[k] * spin) * turn : turn);
+  }
+  WeightedSums sums = SumUp(poses, weights, count);
+  if (!sums.small) SumUpLargeTurns(poses, weights, centre, count, &sums);
+  motion.v = sums.d_position;
+  motion.a = sums.dd_position;
+  motion.omega = spin + sums.d_phi;
+  motion.alpha = sums.dd_phi + spin.cross(sums.d_phi);
   return motion;
 }
 

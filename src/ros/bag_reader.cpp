@@ -1,10 +1,13 @@
 #include "cosserat_cable/ros/bag_reader.h"
 
+#include <ros/serialization.h>
 #include <rosbag/view.h>
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <boost/make_shared.hpp>
 #include <exception>
+#include <utility>
 
 #include "cosserat_cable/ros/conversions.h"
 
@@ -43,6 +46,15 @@ void CheckTypes(const std::string& path, const rosbag::Bag& bag, Problems* probl
                         (joints ? "sensor_msgs/JointState" : "tf2_msgs/TFMessage"));
     }
   }
+}
+
+// Their types were checked when the bags were opened.
+template <typename T>
+boost::shared_ptr<T> Deserialized(std::vector<std::uint8_t>* bytes) {
+  auto message = boost::make_shared<T>();
+  ros::serialization::IStream stream(bytes->data(), static_cast<std::uint32_t>(bytes->size()));
+  ros::serialization::deserialize(stream, *message);
+  return message;
 }
 
 }  // namespace
@@ -101,7 +113,7 @@ std::uint64_t BagReader::count() const {
 }
 
 void BagReader::ForEach(std::int64_t from, std::int64_t to,
-                        const std::function<bool(const BagMessage&)>& visit) const {
+                        const std::function<bool(BagMessage)>& visit) const {
   rosbag::View view;
   const ros::Time first = ToRosTime(std::max(from, begin_));
   const ros::Time last = ToRosTime(std::min(to, end_));
@@ -115,15 +127,15 @@ void BagReader::ForEach(std::int64_t from, std::int64_t to,
     message.topic = instance.getTopic();
     message.connection = instance.getConnectionHeader();
     message.is_static = IsStatic(message.topic);
+    message.bytes.resize(instance.size());
+    ros::serialization::OStream copy(message.bytes.data(), instance.size());
+    instance.write(copy);
     if (WithoutSlash(message.topic) == "joint_states") {
-      message.joints = instance.instantiate<sensor_msgs::JointState>();
+      message.joints = Deserialized<sensor_msgs::JointState>(&message.bytes);
     } else {
-      message.tf = instance.instantiate<tf2_msgs::TFMessage>();
+      message.tf = Deserialized<tf2_msgs::TFMessage>(&message.bytes);
     }
-    if (!message.joints && !message.tf) {
-      throw rosbag::BagFormatException("a message on " + message.topic + " is of another type");
-    }
-    if (!visit(message)) return;
+    if (!visit(std::move(message))) return;
   }
 }
 

@@ -23,10 +23,17 @@ void BagSink::Copy(BagMessage message) {
 
 void BagSink::WriteFirstCopy() {
   const BagMessage& message = copies_.front();
-  const ros::Time time = ToRosTime(message.time);
-  if (message.tf) writer_->Write(message.topic, time, *message.tf, message.connection);
-  if (message.joints) writer_->Write(message.topic, time, *message.joints, message.connection);
+  const auto [entry, is_new] = copied_.try_emplace(message.connection.get());
+  if (is_new) entry->second = writer_->Connect(message.topic, *message.connection);
+  writer_->Write(entry->second, ToRosTime(message.time), message.bytes);
   copies_.pop_front();
+}
+
+template <typename T>
+BagWriter::Connection BagSink::ConnectionOf(const std::string& topic) {
+  const auto [entry, is_new] = own_.try_emplace(topic);
+  if (is_new) entry->second = writer_->Connect<T>(topic);
+  return entry->second;
 }
 
 void BagSink::WriteCopiesUntil(std::int64_t time) {
@@ -37,18 +44,21 @@ void BagSink::Flush() { WriteCopiesUntil(std::numeric_limits<std::int64_t>::max(
 
 void BagSink::Telemetry(const std::string& cable, const ApexTelemetry& message) {
   WriteCopiesUntil(ToNanoseconds(message.header.stamp));
-  writer_->Write("/cables/" + cable + "/apex", message.header.stamp, message);
+  writer_->Write(ConnectionOf<ApexTelemetry>("/cables/" + cable + "/apex"), message.header.stamp,
+                 message);
 }
 
 void BagSink::Markers(const std::string& cable, const visualization_msgs::MarkerArray& message) {
   const ros::Time stamp = message.markers.front().header.stamp;
   WriteCopiesUntil(ToNanoseconds(stamp));
-  writer_->Write("/cables/" + cable + "/markers", stamp, message);
+  writer_->Write(ConnectionOf<visualization_msgs::MarkerArray>("/cables/" + cable + "/markers"),
+                 stamp, message);
 }
 
 void BagSink::Diagnostics(const diagnostic_msgs::DiagnosticArray& message) {
   WriteCopiesUntil(ToNanoseconds(message.header.stamp));
-  writer_->Write("/diagnostics", message.header.stamp, message);
+  writer_->Write(ConnectionOf<diagnostic_msgs::DiagnosticArray>("/diagnostics"),
+                 message.header.stamp, message);
 }
 
 }  // namespace cosserat_cable

@@ -34,11 +34,10 @@ std::int64_t Period(double rate) {
 
 }  // namespace
 
-/// Cables that go through one kernel together, and what they have to tell of the present block.
+/// Cables that go through one kernel together.
 struct CableEngine::Group {
   std::vector<const Surroundings*> then;
   std::vector<StepOutcome> outcomes;
-  std::vector<Told> told;
 };
 
 /// Threads, or the caller's own where there is one.
@@ -191,7 +190,7 @@ bool CableEngine::Start(OutputSink* sink) {
   started_ = true;
   news_.push_back("cables settled at " + std::to_string(now_ / 1'000'000) +
                   " ms; the inertial frame is '" + links_.world() + "'");
-  for (const auto& cable : cables_) cable->Tell(rest, links_.world(), &told_);
+  for (const auto& cable : cables_) cable->Tell(rest, links_.world());
   CollectTold();
   Deliver(sink);
   return true;
@@ -240,7 +239,7 @@ void CableEngine::Sway(std::size_t group, const std::vector<Instant>& block) {
     for (std::size_t k = 0; k < members.size(); ++k) {
       SwayingCable& cable = *cables_[members[k]];
       if (g.then[k]) cable.Take(g.outcomes[k], instant, from, links_.world());
-      cable.Tell(instant, links_.world(), &g.told);
+      cable.Tell(instant, links_.world());
     }
     from = instant.time;
   }
@@ -252,9 +251,16 @@ bool CableEngine::Due(std::int64_t period, std::int64_t time) const {
 
 // In the order of time, and of the cables: whatever thread was first.
 void CableEngine::CollectTold() {
-  for (Group& group : groups_) {
-    std::move(group.told.begin(), group.told.end(), std::back_inserter(told_));
-    group.told.clear();
+  // A cable's clearances are asked for one after the other, while it stands still: those of the
+  // cables of one kernel are shared out among the threads.
+  threads_->arena.execute([&] {
+    oneapi::tbb::task_group measuring;
+    for (const auto& cable : cables_) measuring.run([c = cable.get()] { c->MeasureClearances(); });
+    measuring.wait();
+  });
+  for (const auto& cable : cables_) {
+    std::vector<Told> told = cable->TakeTold();
+    std::move(told.begin(), told.end(), std::back_inserter(told_));
   }
   std::stable_sort(told_.begin(), told_.end(), [](const Told& a, const Told& b) {
     return std::tie(a.time, a.cable) < std::tie(b.time, b.cable);

@@ -13,8 +13,6 @@ namespace {
 // Transports reorder messages by some hundredths of a second; a bag that starts over jumps by its
 // length.
 constexpr std::int64_t kBackwardsJump = 500'000'000;  // [ns]
-// tf2's default; only the tree and the newest transforms are asked of it.
-constexpr double kBufferSeconds = 10;
 // A tree deeper than this has a cycle.
 constexpr std::size_t kMaxDepth = 1000;
 
@@ -36,11 +34,7 @@ const char* ToString(LinkMotion::Source source) {
 
 LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
                        LinkMotionOptions options)
-    : vehicle_(vehicle),
-      links_(links),
-      options_(std::move(options)),
-      buffer_(ros::Duration(kBufferSeconds)),
-      tree_(options_.max_gap) {
+    : vehicle_(vehicle), links_(links), options_(std::move(options)), tree_(options_.max_gap) {
   for (const JointModel& joint : vehicle_.joints) {
     joint_above_[joint.child] = &joint;
     joints_[joint.name] = &joint;
@@ -89,53 +83,47 @@ void LinkMotion::UpdateTree() {
   relevant_.insert(roots.begin(), roots.end());
   world_ = options_.world_frame;
   if (world_.empty() && roots.size() == 1) world_ = *roots.begin();
+  for (auto& [child, edge] : edges_) edge.is_followed = relevant_.count(child) > 0;
 }
 
-bool LinkMotion::AcceptSource(const std::string& parent, const std::string& child, Source source) {
+LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std::string& child,
+                                           Source source) {
   const auto found = edges_.find(child);
   if (found == edges_.end()) {
-    edges_[child] = {parent, source};
+    Edge* edge = &edges_[child];
+    edge->parent = parent;
+    edge->source = source;
     UpdateTree();
-    return true;
+    return edge;
   }
-  Edge& edge = found->second;
-  if (edge.parent != parent) {
+  Edge* edge = &found->second;
+  if (edge->parent != parent) {
     warnings_.Count("frame '" + child + "' has two parents",
-                    "'" + edge.parent + "' by " + ToString(edge.source) + " is kept, '" + parent +
+                    "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" + parent +
                         "' by " + ToString(source) + " is ignored");
-    return false;
+    return nullptr;
   }
-  if (edge.source == source) return true;
+  if (edge->source == source) return edge;
   // What was measured and fixed for this vehicle is better than its drawing.
-  if (edge.source == Source::kUrdf && source == Source::kTfStatic) return true;
+  if (edge->source == Source::kUrdf && source == Source::kTfStatic) return edge;
   // A joint's state and what robot_state_publisher makes of it are one motion: the state itself
   // counts.
-  if (edge.source == Source::kTf && source == Source::kJointStates) {
-    edge.source = source;
-    return true;
+  if (edge->source == Source::kTf && source == Source::kJointStates) {
+    edge->source = source;
+    return edge;
   }
-  if (edge.source == Source::kJointStates && source == Source::kTf) return false;
+  if (edge->source == Source::kJointStates && source == Source::kTf) return nullptr;
+  // Held at zero by the user's word, whatever the recording says.
+  if (edge->source == Source::kUrdf && source == Source::kJointStates) return nullptr;
   warnings_.Count(
       "frame '" + child + "' comes from two sources",
-      std::string(ToString(edge.source)) + " is kept, " + ToString(source) + " is ignored");
-  return false;
-}
-
-void LinkMotion::StoreInBuffer(const std::string& parent, const std::string& child,
-                               std::int64_t stamp, const Pose& X_PC, bool is_static) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = ToRosTime(stamp);
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform = ToTransform(X_PC);
-  buffer_.setTransform(message, "cosserat_cable", is_static);
+      std::string(ToString(edge->source)) + " is kept, " + ToString(source) + " is ignored");
+  return nullptr;
 }
 
 void LinkMotion::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                           Source source) {
-  if (!AcceptSource(parent, child, source)) return;
-  StoreInBuffer(parent, child, 0, X_PC, true);
-  tree_.SetFixed(parent, child, X_PC);
+  if (AcceptSource(parent, child, source)) tree_.SetFixed(parent, child, X_PC);
 }
 
 void LinkMotion::AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
@@ -144,8 +132,8 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
     warnings_.Count(std::string("sample without a stamp by ") + ToString(source), child);
     return;
   }
-  if (!AcceptSource(parent, child, source)) return;
-  Edge* edge = &edges_[child];
+  Edge* edge = AcceptSource(parent, child, source);
+  if (!edge) return;
   if (edge->samples > 0 && stamp < edge->last - kBackwardsJump) {
     Clear();
     warnings_.Count("time ran backwards");
@@ -171,9 +159,9 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
   edge->last = stamp;
   ++edge->samples;
   last_stamp_ = std::max(last_stamp_, stamp);
-  if (relevant_.count(child) == 0) return;
-  StoreInBuffer(parent, child, stamp, X_PC, false);
-  if (!tree_.Append(parent, child, Seconds(stamp), X_PC)) {
+  if (!edge->is_followed) return;
+  if (!edge->samples_of) edge->samples_of = tree_.MovingEdge(parent, child);
+  if (!tree_.Append(edge->samples_of, Seconds(stamp), X_PC)) {
     warnings_.Count("sample ignored by the motion curve",
                     "frame '" + child + "' by " + ToString(source));
   }
@@ -201,9 +189,6 @@ void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
 }
 
 void LinkMotion::IngestJoint(const JointModel& joint, double position, std::int64_t stamp) {
-  const auto edge = edges_.find(joint.child);
-  // Held at zero by the user's word, whatever the recording says.
-  if (edge != edges_.end() && edge->second.source == Source::kUrdf) return;
   AddSample(joint.parent, joint.child, stamp, joint.Evaluate(position), Source::kJointStates);
 }
 
@@ -213,17 +198,26 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message) {
     warnings_.Count("joint state without a position for each name");
     return;
   }
-  for (std::size_t i = 0; i < message.name.size(); ++i) {
-    const auto joint = joints_.find(message.name[i]);
+  // One publisher's messages have the same names each time.
+  if (message.name != named_) {
+    named_ = message.name;
+    named_joints_.clear();
+    for (const std::string& name : named_) {
+      const auto joint = joints_.find(name);
+      named_joints_.push_back(joint == joints_.end() ? nullptr : joint->second);
+    }
+  }
+  for (std::size_t i = 0; i < named_.size(); ++i) {
+    const JointModel* joint = named_joints_[i];
     const double position = message.position[i];
-    if (joint == joints_.end()) {
-      warnings_.Count("joint not in the URDF", "'" + message.name[i] + "'");
+    if (joint == nullptr) {
+      warnings_.Count("joint not in the URDF", "'" + named_[i] + "'");
     } else if (!std::isfinite(position)) {
-      warnings_.Count("joint position not finite", "'" + message.name[i] + "'");
-    } else if (joint->second->type != JointModel::Type::kFloating &&
-               joint->second->type != JointModel::Type::kFixed && joint->second->mimic.empty()) {
-      IngestJoint(*joint->second, position, stamp);
-      const auto followers = mimics_.equal_range(message.name[i]);
+      warnings_.Count("joint position not finite", "'" + named_[i] + "'");
+    } else if (joint->type != JointModel::Type::kFloating &&
+               joint->type != JointModel::Type::kFixed && joint->mimic.empty()) {
+      IngestJoint(*joint, position, stamp);
+      const auto followers = mimics_.equal_range(named_[i]);
       for (auto it = followers.first; it != followers.second; ++it) {
         const JointModel& follower = *it->second;
         IngestJoint(follower, follower.mimic_multiplier * position + follower.mimic_offset, stamp);
@@ -236,7 +230,6 @@ void LinkMotion::Finish() { tree_.Finish(); }
 
 void LinkMotion::Clear() {
   tree_.Clear();
-  buffer_.clear();
   for (auto& [child, edge] : edges_) {
     edge.samples = 0;
     edge.first = edge.last = 0;

@@ -18,6 +18,11 @@ constexpr double kClampAxisLength = 3;  // in cable diameters
 constexpr double kLineWidth = 0.15;     // in cable diameters
 constexpr double kTextHeight = 0.01;    // [m], the same for thin cables: it is there to be read
 
+// Curves and colours are resolved along a cable at least so finely.
+constexpr std::size_t kMinSegments = 40;
+// Of a colour on the map from its true place, which is [0, 1] long: not to be seen.
+constexpr double kColorDeviation = 0.03;
+
 std_msgs::ColorRGBA Color(const Eigen::Vector3d& rgb) {
   std_msgs::ColorRGBA color;
   color.r = static_cast<float>(rgb.x());
@@ -41,49 +46,96 @@ Marker NewMarker(const CableModel& model, std::int64_t time, Id id, int type) {
   return marker;
 }
 
-// Curvature at s: elements' values sit at their middles, with straight lines between them.
-double CurvatureAt(const std::vector<double>& curvatures, double length, double s) {
-  const double u = s / length * static_cast<double>(curvatures.size()) - 0.5;
+// Curvature `u` elements from the start: elements' values sit at their middles, with straight lines
+// between them.
+double CurvatureAt(const std::vector<double>& curvatures, double u) {
   const double last = static_cast<double>(curvatures.size()) - 1;
-  const double clamped = std::clamp(u, 0.0, last);
+  const double clamped = std::clamp(u - 0.5, 0.0, last);
   const auto i = static_cast<std::size_t>(clamped);
   const std::size_t j = std::min(i + 1, curvatures.size() - 1);
   const double t = clamped - static_cast<double>(i);
   return (1 - t) * curvatures[i] + t * curvatures[j];
 }
 
+/// A cross-section of the tube.
+struct Ring {
+  Pose X_WS;
+  double color;  // in [0, 1] of the map, or beyond
+};
+
+// All that a tube may have: at the nodes, and between them where they are far apart.
+std::vector<Ring> AllRings(const CableSimulation& cable, double curvature_scale) {
+  const CableModel& model = cable.model();
+  const std::vector<double> curvatures = cable.curvatures();
+  const std::vector<Pose>& nodes = cable.nodes();
+  const std::size_t elements = curvatures.size();
+  const double h = model.length / static_cast<double>(elements);
+  const std::size_t per_element = (kMinSegments + elements - 1) / elements;
+  std::vector<Ring> rings(elements * per_element + 1);
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const std::size_t e = std::min(i / per_element, elements - 1);
+    const double t = static_cast<double>(i - e * per_element) / static_cast<double>(per_element);
+    rings[i].X_WS = InterpolateNodes(nodes[e], nodes[e + 1], h, t);
+    rings[i].color = CurvatureAt(curvatures, static_cast<double>(e) + t) / curvature_scale;
+  }
+  return rings;
+}
+
+// Whether a straight piece of tube, and colours in between, may stand for the rings from `first` to
+// `last`.
+bool AreAlike(const std::vector<Ring>& rings, std::size_t first, std::size_t last, double turn) {
+  const Ring& from = rings[first];
+  const Eigen::Vector3d along = from.X_WS.q * Eigen::Vector3d::UnitZ();
+  const double color_step = (rings[last].color - from.color) / static_cast<double>(last - first);
+  for (std::size_t i = first + 1; i <= last; ++i) {
+    if (along.dot(rings[i].X_WS.q * Eigen::Vector3d::UnitZ()) < std::cos(turn)) return false;
+    const double color = from.color + static_cast<double>(i - first) * color_step;
+    if (std::abs(rings[i].color - color) > kColorDeviation) return false;
+  }
+  return true;
+}
+
+// Those of the rings that are needed: straight parts of a cable have few.
+std::vector<Ring> NeededRings(const std::vector<Ring>& all, double turn) {
+  std::vector<Ring> needed = {all.front()};
+  for (std::size_t first = 0, last = 1; first + 1 < all.size(); first = last) {
+    last = first + 1;
+    while (last + 1 < all.size() && AreAlike(all, first, last + 1, turn)) ++last;
+    needed.push_back(all[last]);
+  }
+  return needed;
+}
+
 Marker MakeTube(const CableSimulation& cable, const Pose& X_RW, std::int64_t time,
                 const MarkerStyle& style) {
   const CableModel& model = cable.model();
   Marker tube = NewMarker(model, time, kTube, Marker::TRIANGLE_LIST);
-  const std::vector<Pose>& nodes = cable.nodes();
-  const std::vector<double> curvatures = cable.curvatures();
   const double scale = style.curvature_scale > 0 ? style.curvature_scale : 1 / (5 * model.diameter);
+  const std::vector<Ring> rings = NeededRings(AllRings(cable, scale), style.turn);
 
-  const auto rings = static_cast<std::size_t>(style.rings);
   const auto sides = static_cast<std::size_t>(style.sides);
-  std::vector<geometry_msgs::Point> points(rings * sides);
-  std::vector<std_msgs::ColorRGBA> colors(rings);
+  // The polygon's corners lie as far outside of the circle as the middles of its sides inside.
+  const double rim_radius = model.diameter / (1 + std::cos(M_PI / style.sides));
   std::vector<Eigen::Vector3d> rim(sides);
   for (std::size_t j = 0; j < sides; ++j) {
     const double angle = 2 * M_PI * static_cast<double>(j) / static_cast<double>(sides);
-    rim[j] = model.diameter / 2 * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
+    rim[j] = rim_radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0);
   }
-  for (std::size_t i = 0; i < rings; ++i) {
-    const double s = model.length * static_cast<double>(i) / static_cast<double>(rings - 1);
-    const Pose X_RS = X_RW * InterpolateNodes(nodes, model.length, s);
-    colors[i] = Color(ViridisColor(CurvatureAt(curvatures, model.length, s) / scale));
+  std::vector<geometry_msgs::Point> points;
+  std::vector<std_msgs::ColorRGBA> colors;
+  for (const Ring& ring : rings) {
+    const Pose X_RS = X_RW * ring.X_WS;
     const Eigen::Matrix3d R_RS = X_RS.q.toRotationMatrix();
-    for (std::size_t j = 0; j < sides; ++j) points[i * sides + j] = ToPoint(X_RS.p + R_RS * rim[j]);
+    for (const Eigen::Vector3d& p_S : rim) points.push_back(ToPoint(X_RS.p + R_RS * p_S));
+    colors.push_back(Color(ViridisColor(ring.color)));
   }
-  tube.points.resize(6 * (rings - 1) * sides);
-  tube.colors.resize(tube.points.size());
-  std::size_t corner = 0;
+  tube.points.reserve(6 * (rings.size() - 1) * sides);
+  tube.colors.reserve(tube.points.capacity());
   const auto add = [&](std::size_t ring, std::size_t side) {
-    tube.points[corner] = points[ring * sides + side];
-    tube.colors[corner++] = colors[ring];
+    tube.points.push_back(points[ring * sides + side]);
+    tube.colors.push_back(colors[ring]);
   };
-  for (std::size_t i = 0; i + 1 < rings; ++i) {
+  for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
     for (std::size_t j = 0; j < sides; ++j) {
       const std::size_t next = j + 1 < sides ? j + 1 : 0;
       add(i, j);
@@ -142,7 +194,7 @@ Marker MakeName(const CableSimulation& cable, const Pose& X_RW, std::int64_t tim
   text.scale.z = kTextHeight;
   // Dark enough for a light background, light enough for a dark one.
   text.color = Color({0.35, 0.38, 0.45});
-  const Pose apex = InterpolateNodes(cable.nodes(), model.length, model.apex_s);
+  const Pose apex = PoseAt(cable, model.apex_s);
   text.pose.position = ToPoint(X_RW * apex.p);
   text.pose.position.z += model.diameter + kTextHeight;
   return text;
@@ -168,13 +220,7 @@ Eigen::Vector3d ViridisColor(double x) {
   return low + (u - static_cast<double>(i)) * (high - low);
 }
 
-Pose InterpolateNodes(const std::vector<Pose>& nodes, double length, double s) {
-  const double h = length / static_cast<double>(nodes.size() - 1);
-  const double u = std::clamp(s / h, 0.0, static_cast<double>(nodes.size() - 1));
-  const auto i = std::min(static_cast<std::size_t>(u), nodes.size() - 2);
-  const double t = u - static_cast<double>(i);
-  const Pose& A = nodes[i];
-  const Pose& B = nodes[i + 1];
+Pose InterpolateNodes(const Pose& A, const Pose& B, double h, double t) {
   const double t2 = t * t, t3 = t2 * t;
   const Eigen::Vector3d a3 = h * (A.q * Eigen::Vector3d::UnitZ());
   const Eigen::Vector3d b3 = h * (B.q * Eigen::Vector3d::UnitZ());
@@ -183,6 +229,13 @@ Pose InterpolateNodes(const std::vector<Pose>& nodes, double length, double s) {
            (t3 - t2) * b3;
   pose.q = A.q.slerp(t, B.q);
   return pose;
+}
+
+Pose PoseAt(const CableSimulation& cable, double s) {
+  const int elements = cable.model().elements;
+  const double h = cable.model().length / elements;
+  const int i = std::clamp(static_cast<int>(s / h), 0, elements - 1);
+  return InterpolateNodes(cable.node(i), cable.node(i + 1), h, s / h - i);
 }
 
 MarkerArray MakeMarkers(const CableSimulation& cable, const Pose& X_WR, std::int64_t time,

@@ -82,7 +82,7 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
     progress.Update(static_cast<double>(engine->now() - survey.first_step) * 1e-9);
   };
   std::int64_t advance_at = survey.from + kReadAhead;
-  inputs.bags->ForEach(survey.from, survey.to, [&](const BagMessage& message) {
+  inputs.bags->ForEach(survey.from, survey.to, [&](BagMessage message) {
     if (message.time >= advance_at ||
         EarliestStamp(message) < engine->links().last_stamp() - kReadAhead) {
       advance();
@@ -90,7 +90,7 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
     }
     if (message.tf) engine->Ingest(*message.tf, message.is_static);
     if (message.joints) engine->Ingest(*message.joints);
-    sink->Copy(message);
+    sink->Copy(std::move(message));
     return !Interrupted();
   });
   if (!Interrupted()) {

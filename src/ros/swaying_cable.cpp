@@ -45,7 +45,7 @@ void CableEngine::SwayingCable::Settle(const Instant& now, const std::string& wo
   }
   message_ = "swaying";
   Record(now);
-  rest_ = now.frames[frames_.reference].X.Inverse() * simulation_.Report().apex;
+  rest_ = now.frames[frames_.reference].X.Inverse() * simulation_.ReportForces().apex;
 }
 
 const Surroundings* CableEngine::SwayingCable::Then(const Instant& then) {
@@ -80,46 +80,60 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
 }
 
 void CableEngine::SwayingCable::Record(const Instant& now) {
-  const Eigen::Vector3d apex_W =
-      InterpolateNodes(simulation_.nodes(), model().length, model().apex_s).p;
+  const Eigen::Vector3d apex_W = PoseAt(simulation_, model().apex_s).p;
   history_.Add(now.time, options_.amplitude_frame == AmplitudeFrame::kWorld
                              ? apex_W
                              : now.frames[frames_.reference].X.Inverse() * apex_W);
 }
 
-void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world,
-                                     std::vector<Told>* told) {
-  if (now.telemetry && !failed_ && !TellTelemetry(now, told))
+void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world) {
+  if (now.telemetry && !failed_ && !TellTelemetry(now))
     Fail("its state is not finite", now.time, world);
   if (!now.markers) return;
   if (!failed_) {
-    told->push_back(
+    told_.push_back(
         {now.time, index_,
          MakeMarkers(simulation_, now.frames[frames_.reference].X, now.time, options_.markers)});
   } else if (shown_) {
-    told->push_back({now.time, index_, DeleteMarkers(model(), now.time)});
+    told_.push_back({now.time, index_, DeleteMarkers(model(), now.time)});
   }
   shown_ = !failed_;
 }
 
 // False where something is not finite: nothing is told then.
-bool CableEngine::SwayingCable::TellTelemetry(const Instant& now, std::vector<Told>* told) {
+bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
   ApexTelemetry message =
-      MakeTelemetry(simulation_.Report(), now.frames[frames_.reference], rest_, now.time);
+      MakeTelemetry(simulation_.ReportForces(), now.frames[frames_.reference], rest_, now.time);
   message.header.frame_id = model().reference;
   message.amplitude = history_.PeakToPeak();
   message.held = now.in_gap[frames_.a] || now.in_gap[frames_.b];
-  if (!IsValid(message)) return false;
+  CablePosture posture = simulation_.posture();
+  const bool finite = std::all_of(posture.nodes.begin(), posture.nodes.end(),
+                                  [](const Eigen::Vector3d& p) { return p.allFinite(); });
+  if (!finite || !IsValid(message)) return false;
   if (message.held) ++held_;
   summary_.curvature_max = std::max(summary_.curvature_max, message.curvature_max);
-  summary_.clearance_min = std::min(summary_.clearance_min, message.clearance);
   summary_.contact_force_max = std::max(summary_.contact_force_max, message.contact_force);
   summary_.tension_max = std::max(summary_.tension_max, message.tension);
   summary_.amplitude_max = std::max(summary_.amplitude_max, message.amplitude);
   summary_.dissipated = message.dissipated;
   summary_.energy_residual = message.energy_residual;
-  told->push_back({now.time, index_, std::move(message)});
+  unmeasured_.push_back({told_.size(), std::move(posture)});
+  told_.push_back({now.time, index_, std::move(message)});
   return true;
+}
+
+void CableEngine::SwayingCable::MeasureClearances() {
+  for (const Unmeasured& unmeasured : unmeasured_) {
+    auto& message = std::get<ApexTelemetry>(told_[unmeasured.told].message);
+    message.clearance = simulation_.Clearance(unmeasured.posture);
+    summary_.clearance_min = std::min(summary_.clearance_min, message.clearance);
+  }
+  unmeasured_.clear();
+}
+
+std::vector<CableEngine::Told> CableEngine::SwayingCable::TakeTold() {
+  return std::exchange(told_, {});
 }
 
 std::vector<std::string> CableEngine::SwayingCable::TakeNews() { return std::exchange(news_, {}); }

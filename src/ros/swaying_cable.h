@@ -55,8 +55,12 @@ class CableEngine::SwayingCable {
   /// What came of that. `from` [ns]: where the step began.
   void Take(const StepOutcome& outcome, const Instant& then, std::int64_t from,
             const std::string& world);
-  /// Appends what is due.
-  void Tell(const Instant& now, const std::string& world, std::vector<Told>* told);
+  /// Notes what is due.
+  void Tell(const Instant& now, const std::string& world);
+  /// Adds to what was noted what costs most, and what the next step does not need.
+  void MeasureClearances();
+  /// What was noted since this was called last.
+  std::vector<Told> TakeTold();
   /// Sentences to be said to the user, each once.
   std::vector<std::string> TakeNews();
 
@@ -64,7 +68,7 @@ class CableEngine::SwayingCable {
   void Surround(const Instant& now);
   void Record(const Instant& now);
   void Fail(const std::string& message, std::int64_t time, const std::string& world);
-  bool TellTelemetry(const Instant& now, std::vector<Told>* told);
+  bool TellTelemetry(const Instant& now);
 
   const EngineOptions& options_;
   CableSimulation simulation_;
@@ -79,6 +83,14 @@ class CableEngine::SwayingCable {
   std::uint64_t held_ = 0;  // telemetry samples
   CableSummary summary_;
   std::vector<std::string> news_;
+
+  /// Telemetry that lacks its clearance.
+  struct Unmeasured {
+    std::size_t told;  // index
+    CablePosture posture;
+  };
+  std::vector<Told> told_;
+  std::vector<Unmeasured> unmeasured_;
 };
 
 }  // namespace cosserat_cable

@@ -49,13 +49,18 @@ bool MotionTree::SetFixed(const std::string& parent, const std::string& child, c
   return true;
 }
 
-bool MotionTree::Append(const std::string& parent, const std::string& child, double time,
-                        const Pose& X_PC) {
+MotionTree::Edge MotionTree::MovingEdge(const std::string& parent, const std::string& child) {
+  Edge edge;
   const Frame* known = Find(child);
-  if (known && known->fixed) return false;
-  Frame* frame = Attach(parent, child);
+  if (known && known->fixed) return edge;
+  edge.frame_ = Attach(parent, child);
   ++revision_;
-  return frame && frame->curve.Append(time, X_PC);
+  return edge;
+}
+
+bool MotionTree::Append(const Edge& edge, double time, const Pose& X_PC) {
+  ++revision_;
+  return edge && edge.frame_->curve.Append(time, X_PC);
 }
 
 void MotionTree::Finish() {

@@ -45,10 +45,10 @@ class Scene {
   /// A bow of the cable's length from `start` on, in the plane of two random directions.
   void Bow(const Vector3d& start, const Vector3d& along, const Vector3d& aside, double turn) {
     const double h = Cable().length / Cable().elements;
-    nodes.front().p = start;
+    nodes.front() = start;
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       const double angle = turn * static_cast<double>(i) / static_cast<double>(nodes.size());
-      nodes[i].p = nodes[i - 1].p + h * (std::cos(angle) * along + std::sin(angle) * aside);
+      nodes[i] = nodes[i - 1] + h * (std::cos(angle) * along + std::sin(angle) * aside);
     }
   }
 
@@ -57,7 +57,7 @@ class Scene {
     for (std::size_t b = 0; b < meshes_.size(); ++b)
       for (const ContactSite& site : sites_) {
         const auto e = static_cast<std::size_t>(site.element);
-        const Vector3d p_W = (1 - site.xi) * nodes[e].p + site.xi * nodes[e + 1].p;
+        const Vector3d p_W = (1 - site.xi) * nodes[e] + site.xi * nodes[e + 1];
         const Vector3d p = motions[b].X.Inverse() * p_W;
         const double distance = test::BruteForceDistance(meshes_[b], p);
         const bool inside = b < kClosedMeshes && std::abs(test::WindingNumber(meshes_[b], p)) > 0.5;
@@ -75,7 +75,7 @@ class Scene {
     }
   }
 
-  std::vector<Pose> nodes;      // in W
+  std::vector<Vector3d> nodes;      // in W
   std::vector<Motion> motions;  // of the bodies
 
  private:

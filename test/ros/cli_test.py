@@ -256,8 +256,8 @@ class CommandLine(unittest.TestCase):
         self.assertEqual(code, 2, text)
         self.assertIn('does not exist', text)
 
-    def test_interrupt_keeps_a_valid_bag(self):
-        output = os.path.join(self.output_folder, 'out.bag')
+    def replay_until_some_is_written(self, output):
+        """A replay of the ride that is at it, and of which chunks are in the file."""
         process = subprocess.Popen(
             [os.path.join(TOOLS, 'cable_replay'), '--vehicle', CAR_URDF, '--cables', CAR_YAML,
              '--bag', RIDE_BAG, '--output', output],
@@ -266,11 +266,27 @@ class CommandLine(unittest.TestCase):
         while process.poll() is None and not (os.path.exists(active) and
                                               os.path.getsize(active) > 1000000):
             time.sleep(0.01)
+        return process
+
+    def test_interrupt_keeps_a_valid_bag(self):
+        output = os.path.join(self.output_folder, 'out.bag')
+        process = self.replay_until_some_is_written(output)
         process.send_signal(signal.SIGINT)
         text = process.communicate(timeout=60)[0]
         self.assertEqual(process.returncode, 130, text)
         self.assertIn('interrupted', text)
         self.assertGreater(topics_of(output)['/cables/brake_hose_fl/apex'], 10)
+
+    def test_what_a_killed_replay_wrote_can_be_indexed(self):
+        output = os.path.join(self.output_folder, 'out.bag')
+        process = self.replay_until_some_is_written(output)
+        process.kill()
+        process.communicate(timeout=60)
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+        killed = self.path('killed.bag')
+        os.rename(output + '.active', killed)
+        subprocess.run(['rosbag', 'reindex', '-q', killed], check=True)
+        self.assertGreater(topics_of(killed)['/cables/brake_hose_fl/apex'], 10)
 
     def test_full_disk_keeps_a_valid_bag(self):
         small = self.path('small')

@@ -1,6 +1,7 @@
 #include "cosserat_cable/ros/link_motion.h"
 
 #include <gtest/gtest.h>
+#include <tf2/buffer_core.h>
 
 #include <cmath>
 
@@ -63,12 +64,14 @@ Pose BodyPose(double t) {
   return pose;
 }
 
+double Travel(double t) { return 0.03 * std::sin(20 * t); }
+
 void Drive(LinkMotion* links, std::int64_t start, int samples) {
   for (int i = 0; i < samples; ++i) {
     const std::int64_t stamp = start + i * kPeriod;
     const double t = 1e-9 * static_cast<double>(i * kPeriod);
     links->Ingest(Transform("odom", "base", stamp, BodyPose(t)), false);
-    links->Ingest(Joints(stamp, 0.03 * std::sin(20 * t)));
+    links->Ingest(Joints(stamp, Travel(t)));
   }
 }
 
@@ -79,9 +82,26 @@ class LinkMotionTest : public testing::Test {
   LinkMotionOptions options_;
 };
 
+// What robot_state_publisher says of the vehicle at that time, and what moves its base.
+void TellTf2(std::int64_t stamp, tf2::BufferCore* buffer) {
+  const double t = 1e-9 * static_cast<double>(stamp - kStart);
+  const double travel = Travel(t);
+  Pose strut, carrier, arm;
+  strut.p.z() = travel;
+  carrier.p.y() = 0.5;
+  arm.q = Eigen::AngleAxisd(3 * travel, Eigen::Vector3d::UnitZ());
+  for (const auto& message :
+       {Transform("odom", "base", stamp, BodyPose(t)), Transform("base", "strut", stamp, strut),
+        Transform("strut", "carrier", stamp, carrier), Transform("base", "arm", stamp, arm)})
+    ASSERT_TRUE(buffer->setTransform(message.transforms[0], "test"));
+}
+
 TEST_F(LinkMotionTest, FollowsWhatTf2Says) {
   LinkMotion links(vehicle_, needed_, options_);
-  Drive(&links, kStart, 60);
+  constexpr int kSamples = 60;
+  Drive(&links, kStart, kSamples);
+  tf2::BufferCore buffer;
+  for (int i = 0; i < kSamples; ++i) TellTf2(kStart + i * kPeriod, &buffer);
   EXPECT_EQ(links.world(), "odom");
   EXPECT_TRUE(links.Missing().empty());
   std::int64_t begin = 0, ready = 0;
@@ -94,8 +114,8 @@ TEST_F(LinkMotionTest, FollowsWhatTf2Says) {
     for (const std::string& link : needed_) {
       const Pose X = links.Evaluate(link, stamp).X;
       Pose expected;
-      ASSERT_TRUE(ToPose(links.buffer().lookupTransform("odom", link, ToRosTime(stamp)).transform,
-                         &expected));
+      ASSERT_TRUE(
+          ToPose(buffer.lookupTransform("odom", link, ToRosTime(stamp)).transform, &expected));
       EXPECT_LT((X.p - expected.p).norm(), kRounding) << link;
       EXPECT_LT(X.q.angularDistance(expected.q), 1e-7) << link;  // acos near 1
     }

@@ -4,6 +4,7 @@
 // replay, in a fit, in a benchmark. Same input, same bits.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,12 +43,19 @@ struct CableReport {
   Eigen::Vector3d apex, apex_velocity;  ///< [m], [m/s]
   double curvature_max = 0;             ///< [1/m]
   double clearance =
-      0;  ///< surface to the nearest body [m]; negative: penetration; +inf: none within reach
-  double contact_force = 0;           ///< sum of the normal forces' magnitudes [N]
-  double tension_max = 0;             ///< largest axial force [N] (positive: tension)
-  Eigen::Vector3d force_a, moment_a;  ///< by clamp a on the cable [N], [N m]
+      std::numeric_limits<double>::infinity();  ///< surface to the nearest body [m]; negative:
+                                                ///< penetration; +inf: none within reach
+  double contact_force = 0;                     ///< sum of the normal forces' magnitudes [N]
+  double tension_max = 0;                       ///< largest axial force [N] (positive: tension)
+  Eigen::Vector3d force_a, moment_a;            ///< by clamp a on the cable [N], [N m]
   Eigen::Vector3d force_b, moment_b;
   rod::EnergyBalance energy;  ///< since the cable settled; loads are contact
+};
+
+/// Where a cable and the bodies around it are at one instant, in W.
+struct CablePosture {
+  std::vector<Eigen::Vector3d> nodes;  ///< [m]
+  std::vector<Motion> obstacles;
 };
 
 class CableSimulation {
@@ -71,14 +79,21 @@ class CableSimulation {
 
   /// Centreline and section frames at the `elements + 1` nodes, in W.
   const std::vector<Pose>& nodes() const;
+  /// One of them.
+  Pose node(int i) const;
   /// Magnitude of the bending curvature in each element [1/m], `elements` values.
   std::vector<double> curvatures() const;
   std::vector<ContactPoint> contacts() const;
   /// Natural modes about the present configuration, where Settle has found it: clamps and bodies
   /// stay, the latter push back where they are touched. See rod/modes.h, also for errors thrown.
   std::vector<rod::Mode> FindModes(int count) const;
-  /// Not const: it remembers distances, which makes the next report cheap.
   CableReport Report();
+  /// All of a report but its clearance, which is left at +inf.
+  CableReport ReportForces() const;
+  CablePosture posture() const;
+  /// From the cable's surface to the nearest body [m], see CableReport; may be asked while the
+  /// cable is stepped on. Not const: it remembers distances, which makes the next answer cheap.
+  double Clearance(const CablePosture& posture);
 
  private:
   friend class CableFleet;

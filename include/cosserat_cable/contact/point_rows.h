@@ -12,8 +12,6 @@ namespace cosserat_cable {
 class PointRows {
  public:
   void Assign(const std::vector<Eigen::Vector3d>& points);
-  /// The poses' origins.
-  void Assign(const std::vector<Pose>& poses);
   /// The points `points_W` as seen from a frame B at X_WB.
   void Assign(const PointRows& points_W, const Pose& X_WB);
 
@@ -30,8 +28,6 @@ class PointRows {
 
  private:
   void Resize(std::size_t size);
-  template <class PointOf>
-  void Fill(std::size_t size, const PointOf& point_of);
 
   std::size_t size_ = 0, stride_ = 0;
   std::vector<double> data_;

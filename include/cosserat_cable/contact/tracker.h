@@ -16,6 +16,8 @@ struct TrackedClearance {
   double distance = std::numeric_limits<double>::infinity();
   Eigen::Vector3d nearest = Eigen::Vector3d::Zero();  ///< on the surface [m]
   Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit, to the side where the point belongs
+  /// The body, on whichever side, is no farther than this [m].
+  double at_most = std::numeric_limits<double>::infinity();
   bool exact = false;    ///< false: no query was needed, or nothing is within reach
   bool crossed = false;  ///< the body's own answer was on the wrong side and was not taken
 };
@@ -40,8 +42,8 @@ class ContactTracker {
  public:
   /// Answers for the point at `p_B` [m] from what was last accepted. Exact wherever the distance is
   /// below `radius` + `margin` [m]; elsewhere it saves the query where the last one's distance,
-  /// less the way since, still exceeds that. Where a query is made, shapes farther than `reach` [m]
-  /// count as infinitely far.
+  /// less the way since, still exceeds that. Where a query is made, shapes farther than `reach`
+  /// [m], or than what is known to be there, count as infinitely far.
   /// @pre 0 < radius, 0 <= margin, radius + margin < reach
   TrackedClearance Look(const Body& body, const Eigen::Vector3d& p_B, double radius, double margin,
                         double reach) const;
@@ -57,7 +59,8 @@ class ContactTracker {
   bool known_ = false;     ///< whether anything was accepted
   bool has_side_ = false;  ///< whether that was exact, so that there is a plane
   double distance_ = 0;    ///< accepted last [m]
-  Eigen::Vector3d p_B_ = Eigen::Vector3d::Zero();  ///< where
+  double at_most_ = std::numeric_limits<double>::infinity();  ///< likewise
+  Eigen::Vector3d p_B_ = Eigen::Vector3d::Zero();             ///< where
   Eigen::Vector3d nearest_ = Eigen::Vector3d::Zero(),
                   normal_ = Eigen::Vector3d::UnitZ();  ///< the plane
 };

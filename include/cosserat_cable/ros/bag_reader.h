@@ -21,7 +21,8 @@ namespace cosserat_cable {
 struct BagMessage {
   std::int64_t time = 0;  ///< of recording [ns]
   std::string topic;
-  boost::shared_ptr<ros::M_string> connection;  ///< as recorded, to be copied
+  boost::shared_ptr<ros::M_string> connection;  ///< as recorded, to be copied; so are the bytes
+  std::vector<std::uint8_t> bytes;
   boost::shared_ptr<tf2_msgs::TFMessage> tf;
   bool is_static = false;
   boost::shared_ptr<sensor_msgs::JointState> joints;
@@ -44,7 +45,7 @@ class BagReader {
   /// /tf_static come first. Stops where it returns false. Throws rosbag::BagException or
   /// ros::Exception where a bag turns out to be damaged.
   void ForEach(std::int64_t from, std::int64_t to,
-               const std::function<bool(const BagMessage&)>& visit) const;
+               const std::function<bool(BagMessage)>& visit) const;
 
  private:
   std::vector<std::unique_ptr<rosbag::Bag>> bags_;

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <string>
+#include <unordered_map>
 
 #include "cosserat_cable/ros/bag_reader.h"
 #include "cosserat_cable/ros/bag_writer.h"
@@ -28,9 +29,14 @@ class BagSink : public OutputSink {
  private:
   void WriteCopiesUntil(std::int64_t time);
   void WriteFirstCopy();
+  /// The one of that topic; made where there is none yet.
+  template <typename T>
+  BagWriter::Connection ConnectionOf(const std::string& topic);
 
   BagWriter* writer_;
   std::int64_t begin_;
+  std::unordered_map<std::string, BagWriter::Connection> own_;  // by topic
+  std::unordered_map<const ros::M_string*, BagWriter::Connection> copied_;
   std::deque<BagMessage> copies_;  // read ahead of the simulation
 };
 

@@ -1,13 +1,12 @@
 // Follows the links that cables need: every transform and joint state goes through here, live and
 // in replay.
 //
-// tf2's buffer holds the tree of frames, so that a link is what tf2 says it is; the MotionTree
-// beside it keeps each edge's samples at their own stamps and makes the C2 motion of them, which
-// tf2's straight lines between samples cannot give.
+// The tree of frames is tf2's, and at the samples a link is where tf2 says it is; the MotionTree
+// keeps each edge's samples at their own stamps and makes the C2 motion of them, which tf2's
+// straight lines between samples cannot give.
 #pragma once
 
 #include <sensor_msgs/JointState.h>
-#include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cstdint>
@@ -40,6 +39,8 @@ class LinkMotion {
     std::int64_t first = 0, last = 0;   ///< stamps [ns]
     std::int64_t longest_interval = 0;  ///< between two samples [ns]
     std::uint64_t gaps = 0;             ///< intervals longer than max_gap
+    bool is_followed = false;           ///< whether a link depends on it
+    MotionTree::Edge samples_of;        ///< where they are kept, once there are any
   };
 
   /// `links`: those whose motion will be asked for. `vehicle` outlives this.
@@ -76,7 +77,6 @@ class LinkMotion {
   void DropBefore(std::int64_t time);
 
   const std::map<std::string, Edge>& edges() const { return edges_; }
-  const tf2::BufferCore& buffer() const { return buffer_; }
   std::uint64_t clear_count() const { return clear_count_; }
   std::int64_t last_stamp() const { return last_stamp_; }  ///< the latest of all samples [ns]
   Warnings& warnings() { return warnings_; }
@@ -92,10 +92,9 @@ class LinkMotion {
                 Source source);
   void AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
                  const Pose& X_PC, Source source);
-  bool AcceptSource(const std::string& parent, const std::string& child, Source source);
+  /// The edge, made where it is new; null where this source does not count for it.
+  Edge* AcceptSource(const std::string& parent, const std::string& child, Source source);
   void IngestJoint(const JointModel& joint, double position, std::int64_t stamp);
-  void StoreInBuffer(const std::string& parent, const std::string& child, std::int64_t stamp,
-                     const Pose& X_PC, bool is_static);
   const JointModel* JointAbove(const std::string& link) const;
   // The way up from a frame: along edges seen, and along the URDF's joints where none was.
   std::vector<Step> Ascend(const std::string& frame) const;
@@ -108,8 +107,9 @@ class LinkMotion {
   std::map<std::string, const JointModel*> joint_above_;  // by child
   std::multimap<std::string, const JointModel*> mimics_;  // by the joint they follow
   std::map<std::string, const JointModel*> joints_;       // by name
+  std::vector<std::string> named_;                        // in the last joint state
+  std::vector<const JointModel*> named_joints_;           // of these names; null: not in the URDF
 
-  tf2::BufferCore buffer_;
   MotionTree tree_;
   std::map<std::string, Edge> edges_;
   std::string world_;

@@ -11,8 +11,8 @@
 namespace cosserat_cable {
 
 struct MarkerStyle {
-  int rings = 24;              ///< cross-sections along the tube, spread evenly over its length
-  int sides = 8;               ///< of each cross-section
+  int sides = 6;               ///< of the tube's cross-sections
+  double turn = 0.25;          ///< at most, from one cross-section to the next [rad]
   double curvature_scale = 0;  ///< where the colours end [1/m]; 0: 1 / (5 diameters)
   double force_scale = 0.002;  ///< length of a contact force's arrow [m/N]
 };
@@ -28,8 +28,11 @@ visualization_msgs::MarkerArray DeleteMarkers(const CableModel& model, std::int6
 /// The colour at x in [0, 1]: the viridis map, perceptually even.
 Eigen::Vector3d ViridisColor(double x);
 
-/// Position and section rotation at arc length s [m], by cubic Hermite curves between nodes that
-/// are spaced evenly over `length`, with the sections' normals as tangents.
-Pose InterpolateNodes(const std::vector<Pose>& nodes, double length, double s);
+/// Position and section rotation at the fraction `t` of the way from node A to B, which are `h` [m]
+/// of arc length apart: a cubic Hermite curve with the sections' normals as tangents.
+Pose InterpolateNodes(const Pose& A, const Pose& B, double h, double t);
+
+/// The same at arc length s [m] of a cable's present state, in the world.
+Pose PoseAt(const CableSimulation& cable, double s);
 
 }  // namespace cosserat_cable

@@ -14,7 +14,19 @@ namespace cosserat_cable {
 
 /// Several threads may call the const functions at the same time.
 class MotionTree {
+  struct Frame;
+
  public:
+  /// A moving edge, looked up once for many samples; stays as long as the tree.
+  class Edge {
+   public:
+    explicit operator bool() const { return frame_ != nullptr; }
+
+   private:
+    friend class MotionTree;
+    Frame* frame_ = nullptr;
+  };
+
   /// `max_gap` [s]: of the edges' curves, see PoseCurve.
   explicit MotionTree(double max_gap = 0.25);
   // Frames point at each other: they can be moved along with their map, not copied.
@@ -26,9 +38,15 @@ class MotionTree {
   /// moving edge, or the edge would close a loop.
   bool SetFixed(const std::string& parent, const std::string& child, const Pose& X_PC);
 
-  /// A timed sample [s] of a moving edge. False where it was ignored: see PoseCurve::Append and
-  /// SetFixed; also where the edge is a fixed one.
-  bool Append(const std::string& parent, const std::string& child, double time, const Pose& X_PC);
+  /// The edge to `child`, which moves from now on; none where the tree does not allow it, see
+  /// SetFixed, and where it is a fixed one.
+  Edge MovingEdge(const std::string& parent, const std::string& child);
+  /// A timed sample [s] of the edge. False where it was ignored: see PoseCurve::Append; also where
+  /// there is no edge.
+  bool Append(const Edge& edge, double time, const Pose& X_PC);
+  bool Append(const std::string& parent, const std::string& child, double time, const Pose& X_PC) {
+    return Append(MovingEdge(parent, child), time, X_PC);
+  }
 
   /// No more samples will come.
   void Finish();
