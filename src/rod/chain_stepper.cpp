@@ -58,6 +58,12 @@ void ChainStepper<T>::Fetch(int lane, Rod::Impl* rod) {
 }
 
 template <class T>
+Node<double> ChainStepper<T>::NodeAt(int lane, int i) const {
+  const ChainLayout::Place at = chain_.layout.OfNode(i, lane);
+  return GetLane(chain_.state[at.entry].at, at.lane);
+}
+
+template <class T>
 void ChainStepper<T>::Predict(int lane, double dt, std::vector<Eigen::Vector3d>* positions) const {
   for (int i = 0; i <= chain_.layout.elements; ++i) {
     const ChainLayout::Place at = chain_.layout.OfNode(i, lane);

@@ -23,6 +23,7 @@ class ChainStepper final : public RodHome {
             SolveReport* reports);
 
   void Fetch(int lane, Rod::Impl* rod) override;
+  Node<double> NodeAt(int lane, int i) const override;
   void MoveOut(int lane) override { residents_[lane] = nullptr; }
   void Predict(int lane, double dt, std::vector<Eigen::Vector3d>* positions) const override;
 

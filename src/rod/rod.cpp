@@ -111,9 +111,9 @@ void Rod::Predict(double dt, const Pose& a, const Pose& b,
   if (m.model.b.clamped()) positions->back() = b.p;
 }
 
-const NodeState& Rod::NodeAt(int i) const {
-  impl_->Fetch();
-  return impl_->w.node[i];
+NodeState Rod::NodeAt(int i) const {
+  const RodAddress& address = impl_->address;
+  return address.fetched ? impl_->w.node[i] : address.home->NodeAt(address.lane, i);
 }
 const ElementStress& Rod::StressAt(int e) const {
   impl_->Fetch();
@@ -122,7 +122,10 @@ const ElementStress& Rod::StressAt(int e) const {
 V3 Rod::position(int i) const { return NodeAt(i).r; }
 V3 Rod::velocity(int i) const { return NodeAt(i).v; }
 Quat<double> Rod::orientation(int i) const { return NodeAt(i).q; }
-Pose Rod::pose(int i) const { return {ToEigen(NodeAt(i).r), ToEigen(NodeAt(i).q)}; }
+Pose Rod::pose(int i) const {
+  const NodeState node = NodeAt(i);
+  return {ToEigen(node.r), ToEigen(node.q)};
+}
 Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(NodeAt(i).omega); }
 Eigen::Vector3d Rod::acceleration(int i) const {
   impl_->Fetch();

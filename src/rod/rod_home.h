@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cosserat_cable/rod/rod.h"
+#include "element.h"
 
 namespace cosserat_cable::rod {
 
@@ -15,6 +16,8 @@ class RodHome {
   virtual ~RodHome() = default;
   /// Copies the state in `lane` to the rod; it stays here as well.
   virtual void Fetch(int lane, Rod::Impl* rod) = 0;
+  /// One of its nodes.
+  virtual Node<double> NodeAt(int lane, int i) const = 0;
   /// The rod in `lane` changes by itself from now on, or ends.
   virtual void MoveOut(int lane) = 0;
   /// As Rod::Predict, without the clamps.

@@ -131,7 +131,7 @@ class Rod : public Centreline {
   template <class T>
   friend class ChainStepper;
   friend std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load);
-  const Node<double>& NodeAt(int node) const;
+  Node<double> NodeAt(int node) const;
   const ElementStress& StressAt(int element) const;
 
   struct Impl;
