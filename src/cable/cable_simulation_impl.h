@@ -24,6 +24,8 @@ struct CableSimulation::Impl {
   }
   const rod::Load* load() const { return contact.empty() ? nullptr : &contact; }
 
+  /// Sets the cable, at rest, moving with its surroundings.
+  void SetOut(const Surroundings& start, StepOutcome* outcome);
   /// Looks for contact where the cable is about to be.
   void SearchContact(double dt, const Surroundings& then) {
     rod.Predict(dt, then.a.X, then.b.X, &positions);

@@ -57,7 +57,11 @@ double Rod::Impl::EndPower() const {
 void Rod::Impl::AccountForStep(double dt, double load_power) {
   const double in_ends =
       ends.a.SpringDissipationRate(w.node.front()) + ends.b.SpringDissipationRate(w.node.back());
-  energy.Add(dt, {EndPower(), load_power, dissipation_rate_ + in_ends});
+  const EnergyBook::Flow flow = {EndPower(), load_power, dissipation_rate_ + in_ends};
+  if (energy.waits())
+    energy.Open(flow, StoredEnergy());
+  else
+    energy.Add(dt, flow);
 }
 
 EnergyBalance Rod::energy_balance() const { return impl_->energy.Balance(impl_->StoredEnergy()); }

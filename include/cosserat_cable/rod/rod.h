@@ -80,6 +80,10 @@ class Rod : public Centreline {
   /// Sets nodes and clamps moving as a rigid body: with a frame that has this motion in the world.
   void AddRigidMotion(const Motion& frame);
 
+  /// Sets nodes and clamps moving: `nodes`, elements + 1 of them, at their present poses, and the
+  /// clamps' frames. Within the first step the forces become those that this motion asks for.
+  void SetMotion(const std::vector<Motion>& nodes, const Motion& a, const Motion& b);
+
   /// Sets the nodes' velocities [m/s] (world) and angular velocities [rad/s] (section frame);
   /// `elements + 1` of each. What the clamps hold stays at rest.
   void SetVelocities(const std::vector<Eigen::Vector3d>& v,
@@ -115,7 +119,8 @@ class Rod : public Centreline {
   double kinetic_energy() const;  ///< [J]
   double elastic_energy() const;  ///< [J], of the section's and the clamps' springs
   double gravity_energy() const;  ///< [J], zero at the world's origin
-  /// Where the energy came from and went since the configuration was last set or equilibrated.
+  /// Where the energy came from and went since the configuration was last set or equilibrated;
+  /// after SetMotion since the first step.
   EnergyBalance energy_balance() const;
 
  private:
