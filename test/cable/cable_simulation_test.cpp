@@ -165,6 +165,38 @@ TEST(CableSimulationTest, AnOpenSheetDoesNotPass) {
   ExpectStoppedBy(SheetAt(0.3, {0, 0, 0}), 0, 0.22);
 }
 
+TEST(CableSimulationTest, ALongCableLiesOnTheFloorThatItWouldHangThrough) {
+  // Free, it would be 40 mm deep in a plate of 60 mm, nearer to its lower face.
+  constexpr double kTop = -0.1;  // [m]
+  // Pushed up by it, the hose falls on its side, slowly: what is left is some of its last swing.
+  constexpr double kWeight = 0.4 * 0.12 * 9.81, kForce = 0.01 * kWeight;  // [N]
+  constexpr double kMove = 1e-3;                                          // [m]
+  const Body floor({BoxAt({1, 1, 0.06}, {0, 0.1, kTop - 0.03})});
+  CableSimulation free(Hose(), {}, kGravity), cable(Hose(), {&floor}, kGravity);
+  Surroundings s = HoseClamps();
+  ASSERT_TRUE(free.Settle(s).ok);
+  ASSERT_LT(LowestPoint(free), kTop - 0.03);
+  s.obstacles.resize(1);
+  const StepOutcome outcome = cable.Settle(s);
+  ASSERT_TRUE(outcome.ok) << outcome.message;
+  EXPECT_GT(LowestPoint(cable), kTop + 0.9 * 5e-3);
+  const CableReport report = cable.Report();
+  EXPECT_GT(report.contact_force, 0.1);
+  EXPECT_NEAR(report.force_a.z() + report.force_b.z() + report.contact_force, kWeight, kForce);
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  EXPECT_LT((cable.Report().apex - report.apex).norm(), kMove);
+}
+
+TEST(CableSimulationTest, SaysThatItWouldStartInsideOfABody) {
+  const Body block({BoxAt({0.3, 0.6, 0.3}, {0, 0.1, 0})});  // around both clamps
+  CableSimulation cable(Hose(), {&block}, kGravity);
+  Surroundings s = HoseClamps();
+  s.obstacles.resize(1);
+  const StepOutcome outcome = cable.Settle(s);
+  ASSERT_FALSE(outcome.ok);
+  EXPECT_NE(outcome.message.find("mm deep in them"), std::string::npos) << outcome.message;
+}
+
 TEST(CableSimulationTest, TellsTheClearanceWithoutContact) {
   constexpr double kTolerance = 1e-6;  // the lowest point is a node, and nodes are looked at
   CableSimulation free(Hose(), {}, kGravity);

@@ -93,6 +93,9 @@ class Rod : public Centreline {
   /// with a line search) with the ends held by the clamps. Velocities become zero. Under a load
   /// without a potential, by Newton's method with bounded steps: then from near enough.
   SolveReport Equilibrate(const Load* load = nullptr);
+  /// The same from a configuration that is nearly there, without a detour by way of rods that
+  /// stretch more easily: for loads that hold only where they were seen, as contact.
+  SolveReport EquilibrateNearby(const Load* load = nullptr);
 
   /// Advances by `dt` [s] to clamps at `a` and `b`. Their velocities are those that the time scheme
   /// makes of their poses, so that a rigid motion strains nothing. Where it does not converge the
