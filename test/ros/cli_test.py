@@ -244,9 +244,9 @@ class CommandLine(unittest.TestCase):
     def test_samples_that_cannot_be_used_are_named_where_they_are_missed(self):
         with rosbag.Bag(self.path('joints.bag'), 'w') as bag:
             for i in range(20):
-                message = JointState(name=['fl_travel'], position=[0.0])  # no stamp
+                message = JointState(name=['fl_travel'], position=[0.0])  # no stamp; moves two links
                 bag.write('/joint_states', message, rospy.Time(1000 + 0.01 * i))
-        self.refused("'fl_travel'", 'sample without a stamp by /joint_states: 20',
+        self.refused("'fl_travel'", 'sample without a stamp by /joint_states: 40',
                      vehicle=CAR_URDF, cables=CAR_YAML, bag=self.path('joints.bag'))
 
     # ---- Outputs.
