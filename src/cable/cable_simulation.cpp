@@ -6,16 +6,12 @@
 #include "cable_simulation_impl.h"
 #include "cosserat_cable/cable/cable_rod.h"
 #include "cosserat_cable/math/motion_between.h"
-#include "cosserat_cable/rod/initial_shape.h"
 
 namespace cosserat_cable {
 namespace {
 
 // A step that does not converge is halved up to so often.
 constexpr int kMaxHalvings = 5;
-// Equilibrium with contact: rounds of looking for surfaces and settling on them.
-constexpr int kMaxContactRounds = 40;
-constexpr double kSettledMove = 1e-6;  // of the length, in one round
 
 Surroundings Between(const Surroundings& left, const Surroundings& right, double h, double time) {
   Surroundings between;
@@ -63,58 +59,6 @@ CableSimulation::CableSimulation(const CableModel& model, std::vector<const Body
 CableSimulation::~CableSimulation() = default;
 CableSimulation::CableSimulation(CableSimulation&&) noexcept = default;
 CableSimulation& CableSimulation::operator=(CableSimulation&&) noexcept = default;
-
-StepOutcome CableSimulation::Settle(const Surroundings& now) {
-  Impl& m = *impl_;
-  StepOutcome outcome;
-  outcome.ok = false;
-  if (!IsFinite(now)) {
-    outcome.message = "a pose or velocity at rest is not finite";
-    return outcome;
-  }
-  m.now = now;
-  m.contact.Reset();
-  m.rod.SetConfiguration(
-      rod::BowedShape(now.a.X, now.b.X, m.model.length, m.model.elements, m.gravity_W));
-  rod::SolveReport report = m.rod.Equilibrate();
-  outcome.iterations = report.iterations;
-  if (!report.converged) {
-    outcome.message =
-        "no equilibrium found in " + std::to_string(report.iterations) +
-        " iterations (clamps too far apart, or a section parameter out of proportion?)";
-    return outcome;
-  }
-  // Contact at rest: the surfaces near the shape, the shape that they leave, and again.
-  bool settled = false;
-  for (int round = 0; round < kMaxContactRounds && !settled; ++round) {
-    m.TakePositions();
-    const std::vector<Eigen::Vector3d> before = m.positions;
-    m.contact.Search(m.positions, now.obstacles);
-    if (m.contact.empty() && round == 0) {
-      settled = true;
-      break;
-    }
-    report = m.rod.Equilibrate(m.load());
-    outcome.iterations += report.iterations;
-    if (!report.converged) break;
-    m.contact.Accept();
-    double move = 0;
-    for (int i = 0; i <= m.model.elements; ++i)
-      move = std::max(move, (ToEigen(m.rod.position(i)) - before[i]).norm());
-    settled = move < kSettledMove * m.model.length;
-  }
-  if (!settled) {
-    outcome.message = "no equilibrium found against the bodies that the cable touches at rest";
-    return outcome;
-  }
-  m.TakePositions();
-  m.contact.Search(m.positions, now.obstacles);
-  m.contact.Accept();
-  m.rod.AddRigidMotion(now.a);
-  m.nodes_are_known = false;
-  outcome.ok = true;
-  return outcome;
-}
 
 StepOutcome CableSimulation::Step(double dt, const Surroundings& then) {
   Impl& m = *impl_;

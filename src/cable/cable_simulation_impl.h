@@ -28,6 +28,17 @@ struct CableSimulation::Impl {
   }
   const rod::Load* load() const { return contact.empty() ? nullptr : &contact; }
 
+  /// How deep the cable is in what the last search found [m].
+  double Depth() const;
+  /// Equilibrium against the bodies, from the free one or from near.
+  bool SettleOnBodies(StepOutcome* outcome);
+  /// Puts the cable on what it would hang through, growing from a short one to its length.
+  void PayOut(StepOutcome* outcome);
+  /// Sets the cable, at rest, moving with its surroundings.
+  void SetOut(const Surroundings& start, StepOutcome* outcome);
+  void TakeShape(std::vector<Pose>* shape) const {
+    for (int i = 0; i <= model.elements; ++i) (*shape)[i] = rod.pose(i);
+  }
   /// Looks for contact where the cable is about to be.
   void SearchContact(double dt, const Surroundings& then) {
     rod.Predict(dt, then.a.X, then.b.X, &positions);

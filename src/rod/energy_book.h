@@ -13,14 +13,21 @@ class EnergyBook {
   };
 
   /// The next step starts a new account.
-  void Close() { open_ = false; }
-  bool open() const { return open_; }
+  void Close() { open_ = waits_ = false; }
+  bool open() const { return open_ || waits_; }
+  /// It starts with the end of the next step instead.
+  void Wait() {
+    open_ = false;
+    waits_ = true;
+  }
+  bool waits() const { return waits_; }
   void Open(const Flow& flow, double stored) {
     ends_.Restart(flow.ends);
     loads_.Restart(flow.loads);
     dissipation_.Restart(flow.dissipation);
     stored_at_start_ = stored;
     open_ = true;
+    waits_ = false;
   }
   void Add(double dt, const Flow& flow) {
     ends_.Add(dt, flow.ends);
@@ -50,7 +57,7 @@ class EnergyBook {
     double power_ = 0, work_ = 0;
   };
 
-  bool open_ = false;
+  bool open_ = false, waits_ = false;
   double stored_at_start_ = 0;
   Integral ends_, loads_, dissipation_;
 };

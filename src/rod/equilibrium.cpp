@@ -137,43 +137,59 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
   return report;
 }
 
-SolveReport Rod::Equilibrate(const Load* load) {
-  Impl& m = *impl_;
-  m.MoveOut();
-  for (NodeState& n : m.w.node) n.v = n.omega = V3{};
-  for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
-  m.w.trial = m.w.node;
-  ImposeEnds(m.ends, &m.w);
-  m.PrepareStatics();
+void Rod::Impl::BeginStatics() {
+  MoveOut();
+  for (NodeState& n : w.node) n.v = n.omega = V3{};
+  for (EndPart* end : {&ends.a, &ends.b}) end->Start(Motion::Resting(end->clamp().X));
+  w.trial = w.node;
+  ImposeEnds(ends, &w);
+  PrepareStatics();
+}
 
-  const double length = m.model.length;
-  const V3 C_F = m.w.law.C_F, C_M = m.w.law.C_M;
-  const double weight = m.model.section.rhoA * length * std::sqrt(Dot(m.w.gravity, m.w.gravity));
-  const std::vector<NodeState> from = m.w.trial;
-  SolveReport report;
-  report.converged = true;
+void Rod::Impl::Soften(const Load* load, SolveReport* report) {
+  const double length = model.length;
+  const V3 C_F = w.law.C_F, C_M = w.law.C_M;
+  const double weight = model.section.rhoA * length * std::sqrt(Dot(w.gravity, w.gravity));
+  const std::vector<NodeState> from = w.trial;
+  bool converged = true;
   for (double soft = std::max(kSoftBending * std::max(C_M.x, C_M.y) / (length * length),
                               kSoftWeight * weight);
-       soft < C_F.z && report.converged; soft *= kStiffening) {
-    m.w.law.C_F = {std::min(C_F.x, soft), std::min(C_F.y, soft), soft};
-    const int before = report.iterations;
-    report = m.Minimise(kStageTolerance, kStageIterations, load);
-    report.iterations += before;
+       soft < C_F.z && converged; soft *= kStiffening) {
+    w.law.C_F = {std::min(C_F.x, soft), std::min(C_F.y, soft), soft};
+    const SolveReport stage = Minimise(kStageTolerance, kStageIterations, load);
+    report->iterations += stage.iterations;
+    converged = stage.converged;
   }
   // Without bending stiffness worth the name, the soft rod's tension bends the stiffer one zigzag.
-  if (!report.converged) m.w.trial = from;
-  m.w.law.C_F = C_F;
-  const int before = report.iterations;
-  report = m.Minimise(kTolerance, kMaxIterations, load);
-  report.iterations += before;
-  if (!report.converged) return report;
+  if (!converged) w.trial = from;
+  w.law.C_F = C_F;
+}
 
+void Rod::Impl::FinishStatics(const Load* load, SolveReport* report) {
+  const int before = report->iterations;
+  *report = Minimise(kTolerance, kMaxIterations, load);
+  report->iterations += before;
+  if (!report->converged) return;
   // At the clamps, what is left of the forces is what they must supply.
-  if (load) AddLoad(*load, 0, false, 0.0, &m.w);
-  m.TakeRest();
-  m.w.node = m.w.trial;
-  std::fill(m.w.rate.begin(), m.w.rate.end(), NodeRates<double>{});
-  std::fill(m.w.algorithm.begin(), m.w.algorithm.end(), NodeRates<double>{});
+  if (load) AddLoad(*load, 0, false, 0.0, &w);
+  TakeRest();
+  w.node = w.trial;
+  std::fill(w.rate.begin(), w.rate.end(), NodeRates<double>{});
+  std::fill(w.algorithm.begin(), w.algorithm.end(), NodeRates<double>{});
+}
+
+SolveReport Rod::Equilibrate(const Load* load) {
+  SolveReport report;
+  impl_->BeginStatics();
+  impl_->Soften(load, &report);
+  impl_->FinishStatics(load, &report);
+  return report;
+}
+
+SolveReport Rod::EquilibrateNearby(const Load* load) {
+  SolveReport report;
+  impl_->BeginStatics();
+  impl_->FinishStatics(load, &report);
   return report;
 }
 

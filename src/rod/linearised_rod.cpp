@@ -95,6 +95,8 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
       geometric(w->count),
       load_damping(w->count),
       moduli(moduli_of),
+      move_a(Eigen::Matrix3d::Identity()),
+      move_b(Eigen::Matrix3d::Identity()),
       turn_a(Eigen::Matrix3d::Identity()),
       turn_b(Eigen::Matrix3d::Identity()) {
   for (int i = 0; i < w->count; ++i)
@@ -141,11 +143,13 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
         end.StaticTangent(node, {lacks[3], lacks[4], lacks[5]});
     load_damping.diagonal[i].bottomRightCorner<3, 3>() +=
         end.SpringTangent(node, 1.0) - end.SpringTangent(node, 0.0);
-    if (!end.holds_rotation()) return;
+    if (!end.holds()) return;
     // The mass stays: in these axes too, all but diagonal, and of half an element only.
-    Eigen::Matrix3d& turn = at_b ? turn_b : turn_a;
-    turn = end.RotationByPsi(node);
+    Eigen::Matrix3d &move = at_b ? move_b : move_a, &turn = at_b ? turn_b : turn_a;
+    move = end.clamp().X.q.toRotationMatrix();
+    if (end.holds_rotation()) turn = end.RotationByPsi(node);
     SymmetricBands::Block S = SymmetricBands::Block::Identity();
+    S.topLeftCorner<3, 3>() = move;
     S.bottomRightCorner<3, 3>() = turn;
     geometric.Substitute(i, S);
     load_damping.Substitute(i, S);
@@ -158,6 +162,12 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
     load_damping.Clear(k);
     for (SymmetricBands& stiffness : material) stiffness.Clear(k);
   }
+}
+
+Eigen::Vector3d LinearisedRod::Displacement(const Eigen::VectorXd& x, int node) const {
+  const Eigen::Vector3d first = x.segment<3>(6 * node);
+  if (node == 0) return move_a * first;
+  return 6 * (node + 1) == unknowns() ? Eigen::Vector3d(move_b * first) : first;
 }
 
 Eigen::Vector3d LinearisedRod::Rotation(const Eigen::VectorXd& x, int node) const {

@@ -3,8 +3,9 @@
 // K(lambda) = K_g + lambda D + sum_i k_i(lambda)/C_i K_i with the stiffness K_g of stresses and
 // loads, the damping D of loads, and for each of the six section components the stiffness K_i that
 // it has at rest and its dynamic modulus k_i. x: six unknowns per node, displacement in the world's
-// axes [m] and rotation in the section's [rad], or, at an end that is held about some axes only,
-// that of its psi (end_model.h); those that are held have rows and columns of zeros.
+// axes [m] and rotation in the section's [rad]; at an end that a clamp holds in part, displacement
+// in the clamp's axes and that of its psi (end_model.h). What is held has rows and columns of
+// zeros.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,6 +33,8 @@ struct LinearisedRod {
   /// K(0).
   SymmetricBands Stiffness() const;
 
+  /// Of a node, in the world's axes [m].
+  Eigen::Vector3d Displacement(const Eigen::VectorXd& x, int node) const;
   /// Of a node, in its section's axes [rad].
   Eigen::Vector3d Rotation(const Eigen::VectorXd& x, int node) const;
 
@@ -40,7 +43,8 @@ struct LinearisedRod {
   SymmetricBands geometric, load_damping;
   std::vector<SymmetricBands> material;  ///< K_i
   std::array<DynamicModulus, kComponents> moduli;
-  Eigen::Matrix3d turn_a, turn_b;  ///< rotation by the end nodes' last three unknowns
+  /// Displacement by the end nodes' first three unknowns, and rotation by the last three.
+  Eigen::Matrix3d move_a, move_b, turn_a, turn_b;
 };
 
 }  // namespace cosserat_cable::rod

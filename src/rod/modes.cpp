@@ -48,9 +48,12 @@ Vector3d PlaneNormal(const Rod& rod) {
 /// Quadratic forms that split the kinetic energy of small motion; x as in LinearisedRod.
 class Directions {
  public:
-  explicit Directions(const Rod& rod, const VectorXd& mass)
-      : mass_(mass), normal_(PlaneNormal(rod)) {
+  Directions(const Rod& rod, const LinearisedRod& linear)
+      : mass_(linear.mass), normal_(PlaneNormal(rod)) {
     for (int i = 0; i <= rod.elements(); ++i) R_.push_back(rod.pose(i).q.toRotationMatrix());
+    across_.assign(R_.size(), normal_);
+    across_.front() = linear.move_a.transpose() * normal_;
+    across_.back() = linear.move_b.transpose() * normal_;
   }
 
   /// M restricted to motion across the plane, times x: displacements along its normal and bending
@@ -59,7 +62,7 @@ class Directions {
     VectorXd y = VectorXd::Zero(x.size());
     for (std::size_t i = 0; i < R_.size(); ++i) {
       const Vector3d u = x.segment<3>(6 * i);
-      y.segment<3>(6 * i) = mass_[6 * i] * normal_ * normal_.dot(u);
+      y.segment<3>(6 * i) = mass_.segment<3>(6 * i).cwiseProduct(across_[i]) * across_[i].dot(u);
       const auto [axis, across] = BendingAxis(i);
       y.segment<3>(6 * i + 3) = BendingInertia(i) * across * across.dot(x.segment<3>(6 * i + 3));
     }
@@ -86,6 +89,7 @@ class Directions {
 
   const VectorXd& mass_;
   Vector3d normal_;
+  std::vector<Vector3d> across_;  // the normal in the axes of the nodes' displacements
   std::vector<Eigen::Matrix3d> R_;
 };
 
@@ -141,7 +145,7 @@ void SetShape(const LinearisedRod& rod, const Directions& directions, const Vect
               Mode* mode) {
   const int nodes = static_cast<int>(x.size()) / 6;
   for (int i = 0; i < nodes; ++i) {
-    mode->displacement.push_back(x.segment<3>(6 * i));
+    mode->displacement.push_back(rod.Displacement(x, i));
     mode->rotation.push_back(directions.R(i) * rod.Rotation(x, i));
   }
   const auto& measure = mode->kind == ModeKind::kTorsion ? mode->rotation : mode->displacement;
@@ -175,15 +179,12 @@ const char* ToString(ModeKind kind) {
 
 namespace {
 
-/// The unknowns at which the clamps hold the rod, in the world's axes and the sections'.
+/// The unknowns at which the clamps hold the rod (linearised_rod.h).
 std::vector<bool> HeldUnknowns(const RodModel& model, int unknowns) {
   std::vector<bool> held(unknowns, false);
   const auto hold = [&](const EndModel& end, int first) {
-    const auto& move = end.translation;
-    if (move[0] != move[1] || move[0] != move[2])
-      throw std::invalid_argument("modes: an end may slide in all directions or in none");
     for (int k = 0; k < 3; ++k) {
-      held[first + k] = move[k];
+      held[first + k] = end.translation[k];
       held[first + 3 + k] = end.rotation[k];
     }
   };
@@ -203,7 +204,7 @@ std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
   const int unknowns = 6 * m.w.count;
   const std::vector<bool> held = HeldUnknowns(m.model, unknowns);
   const LinearisedRod linear(m.Moduli(), m.joints, m.ends, held, load, &m.w);
-  const Directions directions(rod, linear.mass);
+  const Directions directions(rod, linear);
 
   const double length = m.model.length;
   const double bending = std::min(m.model.section.C_M.x(), m.model.section.C_M.y());

@@ -87,6 +87,19 @@ void Rod::AddRigidMotion(const Motion& frame) {
   }
 }
 
+void Rod::SetMotion(const std::vector<Motion>& nodes, const Motion& a, const Motion& b) {
+  Impl& m = *impl_;
+  m.MoveOut();
+  for (int i = 0; i < m.w.count; ++i) {
+    m.w.node[i].v = ToSmall(nodes[i].v);
+    m.w.node[i].omega = ToSmall(nodes[i].omega);
+    m.w.rate[i] = m.w.algorithm[i] = {ToSmall(nodes[i].a), ToSmall(nodes[i].alpha)};
+  }
+  m.ends.a.Start(a);
+  m.ends.b.Start(b);
+  m.energy.Wait();  // while the forces are still those of statics
+}
+
 SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load) {
   Impl* m = impl_.get();
   if (!m->pair.stepper)

@@ -57,7 +57,13 @@ double Rod::Impl::EndPower() const {
 void Rod::Impl::AccountForStep(double dt, double load_power) {
   const double in_ends =
       ends.a.SpringDissipationRate(w.node.front()) + ends.b.SpringDissipationRate(w.node.back());
-  energy.Add(dt, {EndPower(), load_power, dissipation_rate_ + in_ends});
+  const EnergyBook::Flow flow = {EndPower(), load_power, dissipation_rate_ + in_ends};
+  if (!energy.waits()) {
+    energy.Add(dt, flow);
+    return;
+  }
+  Fetch();
+  energy.Open(flow, StoredEnergy());
 }
 
 EnergyBalance Rod::energy_balance() const {

@@ -60,6 +60,11 @@ struct Rod::Impl {
   /// Minimises the energy of the rod with the law in `w` by moving its iterate, until a correction
   /// is below `tolerance`.
   SolveReport Minimise(double tolerance, int max_iterations, const Load* load);
+  /// At rest, with the static law; its iterate becomes the state once it is in equilibrium.
+  void BeginStatics();
+  void FinishStatics(const Load* load, SolveReport* report);
+  /// Brings the iterate near its equilibrium by way of rods that stretch more easily.
+  void Soften(const Load* load, SolveReport* report);
   /// The section law over a step of `dt` [s], without the elements' offsets.
   ElementLaw<double> LawOfStep(double dt);
   /// Of shear along a1 and a2, stretch, bending about a1 and a2, and twist.

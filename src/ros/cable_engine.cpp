@@ -188,8 +188,8 @@ bool CableEngine::Start(OutputSink* sink) {
     settling.wait();
   });
   started_ = true;
-  news_.push_back("cables settled at " + std::to_string(now_ / 1'000'000) +
-                  " ms; the inertial frame is '" + links_.world() + "'");
+  news_.push_back("cables settled at " + StampText(now_) + "; the inertial frame is '" +
+                  links_.world() + "'");
   for (const auto& cable : cables_) cable->Tell(rest, links_.world());
   CollectTold();
   Deliver(sink);

@@ -6,6 +6,13 @@ namespace cosserat_cable {
 
 using diagnostic_msgs::DiagnosticStatus;
 
+std::string StampText(std::int64_t stamp) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%lld.%03d s", static_cast<long long>(stamp / 1'000'000'000),
+                static_cast<int>(stamp / 1'000'000 % 1000));
+  return text;
+}
+
 void AddValue(const std::string& key, const std::string& value, DiagnosticStatus* status) {
   diagnostic_msgs::KeyValue pair;
   pair.key = key;

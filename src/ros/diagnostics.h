@@ -17,6 +17,9 @@ diagnostic_msgs::DiagnosticStatus CableDiagnostics(const CableSummary& cable, bo
 
 diagnostic_msgs::DiagnosticStatus InputDiagnostics(const LinkMotion& links, std::uint64_t resets);
 
+/// A stamp [ns] as people read it: "1000.005 s".
+std::string StampText(std::int64_t stamp);
+
 /// Appends a key and its value.
 void AddValue(const std::string& key, const std::string& value,
               diagnostic_msgs::DiagnosticStatus* status);

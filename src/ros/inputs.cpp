@@ -87,6 +87,10 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason + " in this recording");
   }
+  // What could not be used may be why.
+  if (!links.Missing().empty())
+    for (const auto& [kind, count] : links.warnings().counts())
+      problems->Add(all, kind + ": " + std::to_string(count));
   survey.edges = links.edges();
   survey.warnings = links.warnings().counts();
   survey.gaps = links.gap_count();

@@ -22,9 +22,12 @@ std::string Millimetres(double metres) {
   return std::isfinite(metres) ? Format("%.2f", 1e3 * metres) : std::string("-");
 }
 
+// A cable that loses less did not sway: its residual is rounding.
+constexpr double kNothingLost = 1e-9;  // [J]
+
 /// The balance's residual as a share of what was dissipated.
 std::string EnergyError(const CableSummary& cable) {
-  if (!(cable.dissipated > 0)) return "-";
+  if (!(cable.dissipated > kNothingLost)) return "-";
   return Format("%.3f", 100 * std::abs(cable.energy_residual) / cable.dissipated) + "%";
 }
 

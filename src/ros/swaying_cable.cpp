@@ -75,8 +75,8 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
   const bool dumped = DumpState(path, simulation_, surroundings_, time, world, message);
   summary_.failure =
       message + (dumped ? "; state in " + path : "; its state could not be written to " + path);
-  news_.push_back("cable '" + model().name + "' stopped at " + std::to_string(time / 1'000'000) +
-                  " ms: " + summary_.failure);
+  news_.push_back("cable '" + model().name + "' stopped at " + StampText(time) + ": " +
+                  summary_.failure);
 }
 
 void CableEngine::SwayingCable::Record(const Instant& now) {

@@ -60,6 +60,56 @@ TEST(CableSimulationTest, StaysAtRestWhereNothingMoves) {
   EXPECT_LT((cable.Report().apex - apex).norm(), kDrift);
 }
 
+TEST(CableSimulationTest, SetsOutInStepWithClampsThatMoveAlready) {
+  // In the middle of a ride, at 14 m/s, a steering and bumping wheel carrier: against the same run
+  // begun at a rest of everything, far enough back for the cable to have forgotten it.
+  constexpr double kDt = 1e-3, kRunUp = 1.0, kTime = 0.25;  // [s]
+  constexpr double kEnergy = 2e-4;                          // of what was dissipated
+  // The cable that came a long way lags behind its equilibria by the delay of its material, eta/EI,
+  // at no more than the speed of the clamp, 0.02 m times w.
+  const double lag = Hose().eta_EI1 / Hose().EI1 * 0.02 * 2 * M_PI * 2;  // [m]
+  const auto at = [](double t) {
+    Surroundings s = HoseClamps();
+    // From rest at t = -kRunUp on: what is left of the ramp at t = 0 is nothing.
+    const double w = 2 * M_PI * 2, r = std::min(1.0, (t + kRunUp) / (0.5 * kRunUp));
+    const double ramp = r * r * r * (10 - 15 * r + 6 * r * r);
+    Motion frame;
+    frame.X.p.x() = 14 * t;
+    frame.v.x() = 14;
+    Motion carrier;
+    carrier.X.p.z() = ramp * 0.02 * std::sin(w * t);
+    carrier.v.z() = 0.02 * w * std::cos(w * t);
+    carrier.a.z() = -0.02 * w * w * std::sin(w * t);
+    carrier.X.q = Eigen::AngleAxisd(ramp * 0.3 * std::sin(w * t), Vector3d::UnitZ());
+    carrier.omega.z() = 0.3 * w * std::cos(w * t);
+    carrier.alpha.z() = -0.3 * w * w * std::sin(w * t);
+    s.a = frame * s.a;
+    s.b = frame * carrier * s.b;
+    return s;
+  };
+  const auto run = [&](CableSimulation* cable, double from, double until) {
+    for (int k = 1; k <= std::lround((until - from) / kDt); ++k)
+      ASSERT_TRUE(cable->Step(kDt, at(from + k * kDt)).ok);
+  };
+  CableSimulation before(Hose(), {}, kGravity), cable(Hose(), {}, kGravity);
+  Surroundings begin = at(-kRunUp);
+  begin.b.v = begin.a.v;
+  begin.b.omega.setZero();
+  begin.b.a.setZero();
+  begin.b.alpha.setZero();
+  ASSERT_TRUE(before.Settle(begin).ok);
+  run(&before, -kRunUp, 0);
+  ASSERT_TRUE(cable.Settle(at(0)).ok);
+  for (double t = 0; t < kTime; t += 0.05) {
+    run(&before, t, t + 0.05);
+    run(&cable, t, t + 0.05);
+    EXPECT_LT((cable.Report().apex - before.Report().apex).norm(), lag) << t;
+  }
+  run(&cable, kTime, kTime + 2);
+  const rod::EnergyBalance energy = cable.Report().energy;
+  EXPECT_LT(std::abs(energy.Residual()), kEnergy * energy.dissipated);
+}
+
 TEST(CableSimulationTest, SameInputGivesSameBits) {
   const auto run = [] {
     const Body floor({BoxAt({1, 1, 0.1}, {0, 0.1, -0.27})});
@@ -113,6 +163,38 @@ TEST(CableSimulationTest, AThinPlateDoesNotPass) {
 }
 TEST(CableSimulationTest, AnOpenSheetDoesNotPass) {
   ExpectStoppedBy(SheetAt(0.3, {0, 0, 0}), 0, 0.22);
+}
+
+TEST(CableSimulationTest, ALongCableLiesOnTheFloorThatItWouldHangThrough) {
+  // Free, it would be 40 mm deep in a plate of 60 mm, nearer to its lower face.
+  constexpr double kTop = -0.1;  // [m]
+  // Pushed up by it, the hose falls on its side, slowly: what is left is some of its last swing.
+  constexpr double kWeight = 0.4 * 0.12 * 9.81, kForce = 0.01 * kWeight;  // [N]
+  constexpr double kMove = 1e-3;                                          // [m]
+  const Body floor({BoxAt({1, 1, 0.06}, {0, 0.1, kTop - 0.03})});
+  CableSimulation free(Hose(), {}, kGravity), cable(Hose(), {&floor}, kGravity);
+  Surroundings s = HoseClamps();
+  ASSERT_TRUE(free.Settle(s).ok);
+  ASSERT_LT(LowestPoint(free), kTop - 0.03);
+  s.obstacles.resize(1);
+  const StepOutcome outcome = cable.Settle(s);
+  ASSERT_TRUE(outcome.ok) << outcome.message;
+  EXPECT_GT(LowestPoint(cable), kTop + 0.9 * 5e-3);
+  const CableReport report = cable.Report();
+  EXPECT_GT(report.contact_force, 0.1);
+  EXPECT_NEAR(report.force_a.z() + report.force_b.z() + report.contact_force, kWeight, kForce);
+  for (int k = 0; k < 200; ++k) ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  EXPECT_LT((cable.Report().apex - report.apex).norm(), kMove);
+}
+
+TEST(CableSimulationTest, SaysThatItWouldStartInsideOfABody) {
+  const Body block({BoxAt({0.3, 0.6, 0.3}, {0, 0.1, 0})});  // around both clamps
+  CableSimulation cable(Hose(), {&block}, kGravity);
+  Surroundings s = HoseClamps();
+  s.obstacles.resize(1);
+  const StepOutcome outcome = cable.Settle(s);
+  ASSERT_FALSE(outcome.ok);
+  EXPECT_NE(outcome.message.find("mm deep in them"), std::string::npos) << outcome.message;
 }
 
 TEST(CableSimulationTest, TellsTheClearanceWithoutContact) {

@@ -112,6 +112,34 @@ RodModel ThinModel(double GJ) {
   return model;
 }
 
+TEST(PublishedModes, ABeamWhoseEndSlidesAcross) {
+  // Along one axis of a clamp that is turned about the beam: guided there (tan mu + tanh mu = 0),
+  // clamped across it. Both clamps' axes are none of the world's.
+  constexpr double kWithin = 2e-3;  // relative
+  const double guided[] = {2.36502, 5.49780}, clamped[] = {4.73004, 7.85320};
+  RodModel model = ThinModel(1);
+  model.b.translation[0] = false;
+  const Pose a{Vector3d(0.3, -0.2, 0.1),
+               Eigen::Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()))};
+  const Eigen::Quaterniond roll(Eigen::AngleAxisd(0.4, Vector3d::UnitZ()));
+  Rod rod(model);
+  const std::vector<Pose> nodes = StraightShape(a, 1, model.elements);
+  rod.SetConfiguration(nodes);
+  rod.SetClamps(a, {nodes.back().p, nodes.back().q * roll});
+  // The clamp turns the rod by its roll, which a round one does not notice.
+  ASSERT_TRUE(rod.Equilibrate().converged);
+  const std::vector<Mode> modes = FindModes(rod, 4);
+  std::vector<double> expected = {guided[0], clamped[0], guided[1], clamped[1]};
+  const Vector3d slide = a.q * roll * Vector3d::UnitX();
+  for (int n = 0; n < 4; ++n) {
+    const double w = expected[n] * expected[n];
+    EXPECT_NEAR(modes[n].w, w, kWithin * w) << n;
+    const Vector3d end = modes[n].displacement.back();
+    EXPECT_NEAR(std::abs(end.dot(slide)), end.norm(), 1e-6) << n;
+    EXPECT_EQ(end.norm() > 0.5, n % 2 == 0) << n;
+  }
+}
+
 TEST(PublishedModes, UArchesHaveThePublishedFrequencies) {
   constexpr double kWithin = 2e-3;  // relative
   const double S[] = {2 / M_PI, 0.5, 0.4, 0.3};

@@ -14,6 +14,7 @@ import unittest
 import rosbag
 import rospy
 from geometry_msgs.msg import TransformStamped
+from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
@@ -239,6 +240,14 @@ class CommandLine(unittest.TestCase):
         with rosbag.Bag(self.path('typed.bag'), 'w') as bag:
             bag.write('/tf', String('hello'), rospy.Time(1))
         self.refused('std_msgs/String', bag=self.path('typed.bag'))
+
+    def test_samples_that_cannot_be_used_are_named_where_they_are_missed(self):
+        with rosbag.Bag(self.path('joints.bag'), 'w') as bag:
+            for i in range(20):
+                message = JointState(name=['fl_travel'], position=[0.0])  # no stamp; moves two links
+                bag.write('/joint_states', message, rospy.Time(1000 + 0.01 * i))
+        self.refused("'fl_travel'", 'sample without a stamp by /joint_states: 40',
+                     vehicle=CAR_URDF, cables=CAR_YAML, bag=self.path('joints.bag'))
 
     # ---- Outputs.
 

@@ -68,7 +68,7 @@ class CableSimulation {
   CableSimulation& operator=(CableSimulation&&) noexcept;
 
   /// Static equilibrium at these poses (reached without twist or loop from the straight cable),
-  /// moving along rigidly with clamp a.
+  /// moving as if it had followed clamps and bodies through equilibria so far.
   StepOutcome Settle(const Surroundings& now);
 
   /// Advances by `dt` [s] to the instant at which `then` holds. On failure the state stays the last

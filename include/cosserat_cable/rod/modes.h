@@ -62,7 +62,6 @@ struct Mode {
 /// The roots are those of the rod's own equations of small motion, (lambda^2 M + K(lambda)) x = 0
 /// with the dynamic modulus of every section component: what a simulation with short steps shows.
 /// @throws std::runtime_error where the iterations do not converge
-/// @throws std::invalid_argument where an end is a slide, held across some axes only
 std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load = nullptr);
 
 }  // namespace cosserat_cable::rod

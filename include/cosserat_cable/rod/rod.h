@@ -87,6 +87,10 @@ class Rod : public Centreline {
   /// Sets nodes and clamps moving as a rigid body: with a frame that has this motion in the world.
   void AddRigidMotion(const Motion& frame);
 
+  /// Sets nodes and clamps moving: `nodes`, elements + 1 of them, at their present poses, and the
+  /// clamps' frames. Within the first step the forces become those that this motion asks for.
+  void SetMotion(const std::vector<Motion>& nodes, const Motion& a, const Motion& b);
+
   /// Sets the nodes' velocities [m/s] (world) and angular velocities [rad/s] (section frame);
   /// `elements + 1` of each. What the clamps hold stays at rest.
   void SetVelocities(const std::vector<Eigen::Vector3d>& v,
@@ -96,6 +100,9 @@ class Rod : public Centreline {
   /// with a line search) with the ends held by the clamps. Velocities become zero. Under a load
   /// without a potential, by Newton's method with bounded steps: then from near enough.
   SolveReport Equilibrate(const Load* load = nullptr);
+  /// The same from a configuration that is nearly there, without a detour by way of rods that
+  /// stretch more easily: for loads that hold only where they were seen, as contact.
+  SolveReport EquilibrateNearby(const Load* load = nullptr);
 
   /// Advances by `dt` [s] to clamps at `a` and `b`. Their velocities are those that the time scheme
   /// makes of their poses, so that a rigid motion strains nothing. Where it does not converge the
@@ -122,7 +129,8 @@ class Rod : public Centreline {
   double kinetic_energy() const;  ///< [J]
   double elastic_energy() const;  ///< [J], of the section's and the clamps' springs
   double gravity_energy() const;  ///< [J], zero at the world's origin
-  /// Where the energy came from and went since the configuration was last set or equilibrated.
+  /// Where the energy came from and went since the configuration was last set or equilibrated;
+  /// after SetMotion since the first step.
   EnergyBalance energy_balance() const;
 
  private:
