@@ -187,26 +187,26 @@ bool EvaluateStrainsOf(StepChain<T>* chain) {
 }  // namespace
 
 // Joints are rare: with them, the loops are compiled once, for the oldest machine.
-#define COSSERAT_CABLE_DEFINE_CHAIN_ADVANCE(KERNEL, T)                         \
-  KERNEL                                                                       \
-  void Predict(const StepCoefficients& c, StepChain<T>* w) { PredictOf(c, w); } \
-  KERNEL                                                                       \
+#define COSSERAT_CABLE_DEFINE_CHAIN_ADVANCE(KERNEL, T)                               \
+  KERNEL                                                                             \
+  void Predict(const StepCoefficients& c, StepChain<T>* w) { PredictOf(c, w); }      \
+  KERNEL                                                                             \
   void AcceptUnjointed(const StepCoefficients& c, const T& taken, StepChain<T>* w) { \
-    while (!CommitElements<false>(taken, w)) continue;                         \
-    CommitNodes(c, taken, w);                                                  \
-  }                                                                            \
-  void Accept(const StepCoefficients& c, const T& taken, StepChain<T>* w) {    \
-    if (w->joints.empty()) return AcceptUnjointed(c, taken, w);                \
-    while (!CommitElements<true>(taken, w)) continue;                          \
-    CommitNodes(c, taken, w);                                                  \
-  }                                                                            \
-  KERNEL                                                                       \
-  void EvaluateStrainsUnjointed(StepChain<T>* w) {                             \
-    while (!EvaluateStrainsOf<false>(w)) continue;                             \
-  }                                                                            \
-  void EvaluateStrains(StepChain<T>* w) {                                      \
-    if (w->joints.empty()) return EvaluateStrainsUnjointed(w);                 \
-    while (!EvaluateStrainsOf<true>(w)) continue;                              \
+    while (!CommitElements<false>(taken, w)) continue;                               \
+    CommitNodes(c, taken, w);                                                        \
+  }                                                                                  \
+  void Accept(const StepCoefficients& c, const T& taken, StepChain<T>* w) {          \
+    if (w->joints.empty()) return AcceptUnjointed(c, taken, w);                      \
+    while (!CommitElements<true>(taken, w)) continue;                                \
+    CommitNodes(c, taken, w);                                                        \
+  }                                                                                  \
+  KERNEL                                                                             \
+  void EvaluateStrainsUnjointed(StepChain<T>* w) {                                   \
+    while (!EvaluateStrainsOf<false>(w)) continue;                                   \
+  }                                                                                  \
+  void EvaluateStrains(StepChain<T>* w) {                                            \
+    if (w->joints.empty()) return EvaluateStrainsUnjointed(w);                       \
+    while (!EvaluateStrainsOf<true>(w)) continue;                                    \
   }
 
 COSSERAT_CABLE_DEFINE_CHAIN_ADVANCE(COSSERAT_CABLE_WIDE_KERNEL, WideLanes)

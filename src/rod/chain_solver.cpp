@@ -143,10 +143,7 @@ class Eliminator {
  public:
   Eliminator(const StepCoefficients& c, const StepChain<T>& chain, Elimination<F>* solver,
              const F& smallest)
-      : w_(chain),
-        solver_(*solver),
-        rate_by_increment_(c.rate_by_increment),
-        pivot_(smallest) {
+      : w_(chain), solver_(*solver), rate_by_increment_(c.rate_by_increment), pivot_(smallest) {
     for (F& x : block_.v) x = F(0.0);
     for (F& x : carried_.v) x = F(0.0);
   }
@@ -292,21 +289,21 @@ void CorrectBackwardOf(const StepCoefficients& c, const T& keep, const Eliminati
 }  // namespace
 
 // Joints are rare: with them, the loops are compiled once, for the oldest machine.
-#define COSSERAT_CABLE_DEFINE_CHAIN_SOLVER(KERNEL, T, F)                                          \
-  KERNEL                                                                                          \
-  void EliminateUnjointed(const StepCoefficients& c, bool fresh, StepChain<T>* w,                 \
-                          Elimination<F>* solver, F* smallest) {                                  \
-    while (!EliminateForwardOf<false>(c, fresh, w, solver, smallest)) continue;                   \
-  }                                                                                               \
-  void EliminateForward(const StepCoefficients& c, bool fresh, StepChain<T>* w,                   \
-                        Elimination<F>* solver, F* smallest) {                                    \
-    if (w->joints.empty()) return EliminateUnjointed(c, fresh, w, solver, smallest);              \
-    while (!EliminateForwardOf<true>(c, fresh, w, solver, smallest)) continue;                    \
-  }                                                                                               \
-  KERNEL                                                                                          \
-  void CorrectBackward(const StepCoefficients& c, const T& keep, const Elimination<F>& solver,    \
-                       StepChain<T>* w, ChainCorrection<T>* size) {                               \
-    CorrectBackwardOf(c, keep, solver, w, size);                                                  \
+#define COSSERAT_CABLE_DEFINE_CHAIN_SOLVER(KERNEL, T, F)                                       \
+  KERNEL                                                                                       \
+  void EliminateUnjointed(const StepCoefficients& c, bool fresh, StepChain<T>* w,              \
+                          Elimination<F>* solver, F* smallest) {                               \
+    while (!EliminateForwardOf<false>(c, fresh, w, solver, smallest)) continue;                \
+  }                                                                                            \
+  void EliminateForward(const StepCoefficients& c, bool fresh, StepChain<T>* w,                \
+                        Elimination<F>* solver, F* smallest) {                                 \
+    if (w->joints.empty()) return EliminateUnjointed(c, fresh, w, solver, smallest);           \
+    while (!EliminateForwardOf<true>(c, fresh, w, solver, smallest)) continue;                 \
+  }                                                                                            \
+  KERNEL                                                                                       \
+  void CorrectBackward(const StepCoefficients& c, const T& keep, const Elimination<F>& solver, \
+                       StepChain<T>* w, ChainCorrection<T>* size) {                            \
+    CorrectBackwardOf(c, keep, solver, w, size);                                               \
   }
 
 COSSERAT_CABLE_DEFINE_CHAIN_SOLVER(COSSERAT_CABLE_WIDE_KERNEL, WideLanes, Quick<WideLanes>)

@@ -6,8 +6,8 @@
 
 namespace cosserat_cable::rod {
 
-/// Declares both for eight rods, for four, and for one in halves, and for the numbers F in which the
-/// system is solved: a function template could not be compiled for several instruction sets.
+/// Declares both for eight rods, for four, and for one in halves, and for the numbers F in which
+/// the system is solved: a function template could not be compiled for several instruction sets.
 #define COSSERAT_CABLE_DECLARE_CHAIN_SOLVER(T, F)                                                 \
   /** Forces of the iterate; a new tangent and its factors where `fresh`, else the last ones';    \
       forward substitution. Lowers `smallest` to the smallest pivot: positive exactly where the   \

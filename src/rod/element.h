@@ -82,8 +82,8 @@ struct ElementState {
 
 template <class To, class From>
 ElementState<To> Converted(const ElementState<From>& e) {
-  return {Converted<To>(e.Rm),    Converted<To>(e.u),     Converted<To>(e.theta),
-          Converted<To>(e.tau),   Converted<To>(e.c),     Converted<To>(e.u_rate),
+  return {Converted<To>(e.Rm),         Converted<To>(e.u), Converted<To>(e.theta),
+          Converted<To>(e.tau),        Converted<To>(e.c), Converted<To>(e.u_rate),
           Converted<To>(e.theta_rate), Converted<To>(e.n), Converted<To>(e.m)};
 }
 

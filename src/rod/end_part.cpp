@@ -9,14 +9,10 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-bool Any(const std::array<bool, 3>& held) {
-  return held[0] || held[1] || held[2];
-}
+bool Any(const std::array<bool, 3>& held) { return held[0] || held[1] || held[2]; }
 
 /// A section that is held in every rotation has the clamp's very frame.
-bool All(const std::array<bool, 3>& held) {
-  return held[0] && held[1] && held[2];
-}
+bool All(const std::array<bool, 3>& held) { return held[0] && held[1] && held[2]; }
 
 }  // namespace
 

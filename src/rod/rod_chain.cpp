@@ -130,8 +130,7 @@ ElementStress Rod::Impl::StressIn(const StepChain<T>& chain, int entry, int lane
   found.kappa_dot = per_length * GetLane(strain.theta_rate, lane);
   const Section& s = model.section;
   const ElementStrain beyond = StrainOf(found);
-  const Eigen::Vector3d m =
-      s.C_M.cwiseProduct(beyond.kappa) + s.V_M.cwiseProduct(beyond.kappa_dot);
+  const Eigen::Vector3d m = s.C_M.cwiseProduct(beyond.kappa) + s.V_M.cwiseProduct(beyond.kappa_dot);
   found.n = {shear1.Force(shear[element][0]), shear2.Force(shear[element][1]),
              s.C_F.z() * beyond.gamma.z() + s.V_F.z() * beyond.gamma_dot.z()};
   found.m = ToSmall(m);

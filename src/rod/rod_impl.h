@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "chain_stepper.h"
 #include "cosserat_cable/math/small_eigen.h"
 #include "cosserat_cable/rod/rod.h"
-#include "chain_stepper.h"
 #include "end_part.h"
 #include "energy_book.h"
 #include "rod_home.h"
@@ -79,8 +79,8 @@ struct Rod::Impl {
   }
   template <class T>
   void FillMasses(int lane, const ChainLayout& layout, std::vector<NodeMass<T>>* masses) const;
-  /// The law of the step, into a lane of a chain or into both halves, unless this rod's for steps as
-  /// long [s] is there and does not change from step to step.
+  /// The law of the step, into a lane of a chain or into both halves, unless this rod's for steps
+  /// as long [s] is there and does not change from step to step.
   template <class T>
   void FillLaw(int lane, StepChain<T>* chain, double* dt_there) const;
   /// What the branches add to the offsets of the chain.
@@ -128,8 +128,8 @@ struct Rod::Impl {
   double dt_of_law_ = 0;                     // of the last step begun [s]
   ElementLaw<double> law_of_step_;           // of that step
   PrescribedMotion a_before_, b_before_;     // clamps at its start
-  double dissipation_rate_ = 0;             // of the sections [W]
-  std::vector<ElementStress> stress_;       // by element
+  double dissipation_rate_ = 0;              // of the sections [W]
+  std::vector<ElementStress> stress_;        // by element
   std::vector<SectionValue> branch_stress_;  // the branches' part of it
 };
 

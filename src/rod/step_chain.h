@@ -205,10 +205,10 @@ struct StepChain {
   std::vector<NodeMass<T>> masses;
   std::vector<ShearOffset<T>> shear_offsets;
   std::vector<ElementOffset<T>> branch_offsets;  // only where `branched`
-  std::vector<ElementJoint<T>> joints;  // none of rods without joints
-  std::vector<ChainStrain<T>> strains;  // found when asked for
-  T dissipation = 0.0;                  // of the accepted iterate [W]
-  Vec6<T> missing_first[2], missing_last;  // what its end nodes lack to balance
+  std::vector<ElementJoint<T>> joints;           // none of rods without joints
+  std::vector<ChainStrain<T>> strains;           // found when asked for
+  T dissipation = 0.0;                           // of the accepted iterate [W]
+  Vec6<T> missing_first[2], missing_last;        // what its end nodes lack to balance
 
   Elimination<Quick<T>> quick;
   Elimination<T> exact;  // where quick does not do

@@ -21,8 +21,8 @@ constexpr int kRefactorFrom = 3;
 // From this iteration on, factors are as precise as everything else.
 constexpr int kExactFrom = 5;
 
-/// Of squares over the nodes of one rod with this `sum`: the amplitude of a wave, which is the square
-/// root of twice their mean.
+/// Of squares over the nodes of one rod with this `sum`: the amplitude of a wave, which is the
+/// square root of twice their mean.
 template <class T>
 double Amplitude(const T& sum, int rod, const ChainLayout& layout) {
   const double total = layout.halves ? GetLane(sum, 0) + GetLane(sum, 1) : GetLane(sum, rod);

@@ -19,7 +19,8 @@ struct StepOfRod {
 
 /// Finds the iterate in which all forces balance, for each rod of the chain. Expects the first
 /// iterate and the held ends, law and offsets in the chain; leaves the iterate there, and what
-/// loads add to it. A rod's result does not depend on the others. `rods`: by lane; of one in halves, that one.
+/// loads add to it. A rod's result does not depend on the others. `rods`: by lane; of one in
+/// halves, that one.
 template <class T>
 void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods);
 
