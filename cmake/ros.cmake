@@ -20,6 +20,8 @@ find_package(catkin REQUIRED COMPONENTS
   visualization_msgs
 )
 
+find_package(BZip2 REQUIRED)
+
 add_message_files(DIRECTORY msg FILES ApexTelemetry.msg)
 generate_messages(DEPENDENCIES std_msgs)
 
@@ -51,7 +53,7 @@ target_include_directories(cosserat_cable_ros PUBLIC include)
 target_include_directories(cosserat_cable_ros SYSTEM PUBLIC
   ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION} ${catkin_INCLUDE_DIRS})
 target_link_libraries(cosserat_cable_ros PUBLIC cosserat_cable_console cosserat_cable_cable cosserat_cable_vehicle
-  ${catkin_LIBRARIES} TBB::tbb Threads::Threads)
+  ${catkin_LIBRARIES} BZip2::BZip2 TBB::tbb Threads::Threads)
 
 foreach(room ${rooms})
   get_target_property(type ${room} TYPE)

@@ -169,7 +169,7 @@ PoseCurve::Window PoseCurve::WindowOf(int knot) const {
   Window window;
   const bool last = knot + 1 == size();
   if (knots_[knot].gap_before || (!last && knots_[knot + 1].gap_before)) {
-    return {knot, knot + 1, true, true, true};
+    return {knot, knot + 1, true, true};
   }
   window.beside_hole = knots_[knot].hole_before || (!last && knots_[knot + 1].hole_before);
   const auto ends_at = [&](const Knot& k) {
@@ -180,7 +180,6 @@ PoseCurve::Window PoseCurve::WindowOf(int knot) const {
   while (back + 1 < size() && back - knot < kWindow && !ends_at(knots_[back + 1])) ++back;
   window.begin = begin;
   window.end = back + 1;
-  window.complete = finished_ || back - knot == kWindow || back + 1 < size();
   return window;
 }
 
@@ -229,9 +228,21 @@ Motion PoseCurve::MotionAt(int knot, const Window& window) const {
   return motion;
 }
 
+// Whether no later sample can change the knot's window; see WindowOf.
+bool PoseCurve::IsFinal(int knot) const {
+  if (finished_ || knots_[knot].gap_before) return true;
+  const bool last = knot + 1 == size();
+  const bool beside_hole = knots_[knot].hole_before || (!last && knots_[knot + 1].hole_before);
+  for (int k = knot + 1; k <= knot + kWindow; ++k) {
+    if (k == size()) return false;
+    if (beside_hole ? knots_[k].gap_before : knots_[k].hole_before) return true;
+  }
+  return true;
+}
+
 void PoseCurve::FinalizeKnots() {
   for (; final_count_ < size(); ++final_count_) {
-    if (!WindowOf(final_count_).complete) return;
+    if (!IsFinal(final_count_)) return;
   }
 }
 

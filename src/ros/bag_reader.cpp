@@ -1,7 +1,6 @@
 #include "cosserat_cable/ros/bag_reader.h"
 
 #include <ros/serialization.h>
-#include <rosbag/view.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 #include <exception>
 #include <utility>
 
+#include "bag_file.h"
 #include "cosserat_cable/ros/conversions.h"
 
 namespace cosserat_cable {
@@ -21,28 +21,15 @@ bool IsMotion(const std::string& topic) {
   return name == "tf" || name == "tf_static" || name == "joint_states";
 }
 
-bool IsMoving(const rosbag::ConnectionInfo* connection) {
-  return IsMotion(connection->topic) && !IsStatic(connection->topic);
-}
-
-bool IsStaticConnection(const rosbag::ConnectionInfo* connection) {
-  return IsStatic(connection->topic);
-}
-
-bool IsMotionConnection(const rosbag::ConnectionInfo* connection) {
-  return IsMotion(connection->topic);
-}
-
-void CheckTypes(const std::string& path, const rosbag::Bag& bag, Problems* problems) {
-  rosbag::View view(bag, IsMotionConnection);
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    const bool joints = WithoutSlash(connection->topic) == "joint_states";
+void CheckTypes(const std::string& path, const BagFile& bag, Problems* problems) {
+  for (const BagConnection& connection : bag.connections()) {
+    const bool joints = WithoutSlash(connection.topic) == "joint_states";
     const std::string expected = joints
                                      ? ros::message_traits::MD5Sum<sensor_msgs::JointState>::value()
                                      : ros::message_traits::MD5Sum<tf2_msgs::TFMessage>::value();
-    if (connection->md5sum != expected) {
-      problems->Add(path, 0, connection->topic,
-                    "got messages of type " + connection->datatype + ", expected " +
+    if (connection.Field("md5sum") != expected) {
+      problems->Add(path, 0, connection.topic,
+                    "got messages of type " + connection.Field("type") + ", expected " +
                         (joints ? "sensor_msgs/JointState" : "tf2_msgs/TFMessage"));
     }
   }
@@ -53,7 +40,11 @@ template <typename T>
 boost::shared_ptr<T> Deserialized(std::vector<std::uint8_t>* bytes) {
   auto message = boost::make_shared<T>();
   ros::serialization::IStream stream(bytes->data(), static_cast<std::uint32_t>(bytes->size()));
-  ros::serialization::deserialize(stream, *message);
+  try {
+    ros::serialization::deserialize(stream, *message);
+  } catch (const ros::serialization::StreamOverrunException&) {
+    throw BagFormatError("a message ends too early");
+  }
   return message;
 }
 
@@ -71,36 +62,24 @@ BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems) 
       continue;
     }
     try {
-      auto bag = std::make_unique<rosbag::Bag>(path);
+      auto bag = std::make_unique<BagFile>(path, IsMotion);
       CheckTypes(path, *bag, problems);
       bags_.push_back(std::move(bag));
-    } catch (const rosbag::BagUnindexedException&) {
+    } catch (const BagUnindexedError&) {
       problems->Add(path, "the bag has no index: run `rosbag reindex " + path + "`");
-    } catch (const std::exception& error) {
+    } catch (const BagFormatError& error) {
       problems->Add(path, std::string("no bag, or a truncated one (") + error.what() +
                               "); `rosbag reindex " + path + "` may recover what is there");
     }
   }
   for (const auto& bag : bags_) {
-    rosbag::View view(*bag, IsMotionConnection);
-    if (view.size() == 0) continue;
-    const std::int64_t begin = ToNanoseconds(view.getBeginTime());
-    const std::int64_t end = ToNanoseconds(view.getEndTime());
+    if (bag->entries().empty()) continue;
+    const std::int64_t begin = bag->entries().front().time;
     begin_ = begin_ == 0 ? begin : std::min(begin_, begin);
-    end_ = std::max(end_, end);
-    for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-      const std::string topic = connection->topic;
-      if (counts_.count(topic) > 0) continue;
-      counts_[topic] = 0;
-    }
-  }
-  for (auto& [topic, count] : counts_) {
-    for (const auto& bag : bags_) {
-      const std::string& name = topic;
-      count += rosbag::View(*bag, [&name](const rosbag::ConnectionInfo* connection) {
-                 return connection->topic == name;
-               }).size();
-    }
+    end_ = std::max(end_, bag->entries().back().time);
+    for (const BagConnection& connection : bag->connections()) counts_[connection.topic];
+    for (const BagFile::Entry& entry : bag->entries())
+      ++counts_[bag->connections()[entry.connection].topic];
   }
 }
 
@@ -114,22 +93,29 @@ std::uint64_t BagReader::count() const {
 
 void BagReader::ForEach(std::int64_t from, std::int64_t to,
                         const std::function<bool(BagMessage)>& visit) const {
-  rosbag::View view;
-  const ros::Time first = ToRosTime(std::max(from, begin_));
-  const ros::Time last = ToRosTime(std::min(to, end_));
-  for (const auto& bag : bags_) {
-    view.addQuery(*bag, IsMoving, first, last);
-    view.addQuery(*bag, IsStaticConnection, ros::TIME_MIN, last);
-  }
-  for (const rosbag::MessageInstance& instance : view) {
+  // Each bag's next message.
+  std::vector<std::size_t> next(bags_.size(), 0);
+  for (;;) {
+    BagFile* earliest = nullptr;
+    std::size_t* taken = nullptr;
+    for (std::size_t i = 0; i < bags_.size(); ++i) {
+      const auto& entries = bags_[i]->entries();
+      if (next[i] == entries.size()) continue;
+      if (earliest && earliest->entries()[*taken].time <= entries[next[i]].time) continue;
+      earliest = bags_[i].get();
+      taken = &next[i];
+    }
+    if (!earliest) return;
+    const BagFile::Entry& entry = earliest->entries()[(*taken)++];
+    const BagConnection& connection = earliest->connections()[entry.connection];
+    const bool is_static = IsStatic(connection.topic);
+    if (entry.time > to || (entry.time < from && !is_static)) continue;
     BagMessage message;
-    message.time = ToNanoseconds(instance.getTime());
-    message.topic = instance.getTopic();
-    message.connection = instance.getConnectionHeader();
-    message.is_static = IsStatic(message.topic);
-    message.bytes.resize(instance.size());
-    ros::serialization::OStream copy(message.bytes.data(), instance.size());
-    instance.write(copy);
+    message.time = entry.time;
+    message.topic = connection.topic;
+    message.connection = connection.header;
+    message.is_static = is_static;
+    message.bytes = earliest->Read(entry);
     if (WithoutSlash(message.topic) == "joint_states") {
       message.joints = Deserialized<sensor_msgs::JointState>(&message.bytes);
     } else {

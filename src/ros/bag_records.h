@@ -34,6 +34,9 @@ class ByteBuffer {
   std::size_t used_ = 0;
 };
 
+/// With which a bag of this format begins.
+constexpr char kBagVersion[] = "#ROSBAG V2.0\n";
+
 enum class BagRecord : std::uint8_t {
   kMessage = 2,
   kFile = 3,

@@ -15,7 +15,6 @@
 namespace cosserat_cable {
 namespace {
 
-constexpr char kVersionLine[] = "#ROSBAG V2.0\n";
 // A chunk is written when it has grown to this, as rosbag's own are [bytes].
 constexpr std::size_t kChunkSize = 768 * 1024;
 // Room is allocated this much ahead of the need [bytes].
@@ -99,7 +98,7 @@ void BagWriter::Impl::WriteEnd() {
   Append(chunk_infos);
   scratch.Shorten(0);
   AppendFileHeader(index, connection_count, chunk_count, &scratch);
-  WriteAt(sizeof kVersionLine - 1, scratch);
+  WriteAt(sizeof kBagVersion - 1, scratch);
 }
 
 void BagWriter::Impl::Break(const std::string& why) {
@@ -112,7 +111,7 @@ BagWriter::BagWriter(const std::string& path) : impl_(std::make_unique<Impl>(pat
   m.descriptor = open(m.active_path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (m.descriptor < 0) throw BagWriteError(m.active_path + ": " + std::strerror(errno));
   try {
-    m.scratch.Append(std::string_view(kVersionLine));
+    m.scratch.Append(std::string_view(kBagVersion));
     AppendFileHeader(0, 0, 0, &m.scratch);
     m.Reserve(m.scratch.size());
     m.Append(m.scratch);

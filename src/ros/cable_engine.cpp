@@ -145,26 +145,29 @@ void CableEngine::Finish() {
   finished_ = true;
 }
 
-CableEngine::Instant CableEngine::Follow(std::int64_t time) {
-  Instant instant;
-  instant.time = time;
-  instant.telemetry = Due(telemetry_period_, time);
-  instant.markers = send_markers_ && Due(marker_period_, time);
-  for (const std::string& link : frames_) {
-    instant.frames.push_back(links_.Follow(link, time));
-    instant.in_gap.push_back(instant.telemetry && links_.InGap(link, time));
+void CableEngine::Follow(std::int64_t time, Instant* instant) {
+  instant->time = time;
+  instant->telemetry = Due(telemetry_period_, time);
+  instant->markers = send_markers_ && Due(marker_period_, time);
+  instant->frames.resize(frames_.size());
+  instant->in_gap.resize(frames_.size());
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    instant->frames[i] = links_.Follow(frames_[i], time);
+    instant->in_gap[i] = instant->telemetry && links_.InGap(frames_[i], time);
   }
-  return instant;
 }
 
 // Up to the next diagnostics: they tell of what all cables did until then.
 void CableEngine::FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block) {
-  block->clear();
-  while (from + dt_ <= ready && block->size() < kBlock) {
+  // Instants keep their memory from block to block.
+  std::size_t count = 0;
+  while (from + dt_ <= ready && count < kBlock) {
     from += dt_;
-    block->push_back(Follow(from));
+    if (block->size() == count) block->emplace_back();
+    Follow(from, &(*block)[count++]);
     if (Due(diagnostics_period_, from)) break;
   }
+  block->resize(count);
 }
 
 bool CableEngine::Start(OutputSink* sink) {
@@ -180,7 +183,8 @@ bool CableEngine::Start(OutputSink* sink) {
   const std::int64_t start = (begin + dt_ - 1) / dt_ * dt_;
   if (start > ready) return false;
   now_ = start;
-  const Instant rest = Follow(now_);
+  Instant rest;
+  Follow(now_, &rest);
   threads_->arena.execute([&] {
     oneapi::tbb::task_group settling;
     for (const auto& cable : cables_)

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "bag_file.h"
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/ros/bag_sink.h"
@@ -133,7 +134,7 @@ ExitCode RunReplay(ReplayOptions options) {
     } catch (const BagWriteError& error) {
       std::cerr << error.what() << ": stopped; what was written so far is kept\n";
       code = kExitFileTrouble;
-    } catch (const ros::Exception& error) {
+    } catch (const BagFormatError& error) {
       std::cerr << "the recording cannot be read on: " << error.what() << "\n";
       code = kExitFileTrouble;
     }

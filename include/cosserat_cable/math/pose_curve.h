@@ -99,11 +99,11 @@ class PoseCurve {
     int begin = 0, end = 0;
     bool at_rest = false;  ///< beside a gap
     bool beside_hole = false;
-    bool complete = false;  ///< no later sample can change it
   };
 
   int size() const { return static_cast<int>(knots_.size()); }
   Window WindowOf(int knot) const;
+  bool IsFinal(int knot) const;
   Motion MotionAt(int knot, const Window& window) const;
   void FinalizeKnots();
   void Know(int knot);

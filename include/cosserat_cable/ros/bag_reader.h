@@ -1,7 +1,6 @@
 // The motion in one or more bags: /tf, /tf_static and /joint_states in the order of time.
 #pragma once
 
-#include <rosbag/bag.h>
 #include <sensor_msgs/JointState.h>
 #include <tf2_msgs/TFMessage.h>
 
@@ -28,6 +27,8 @@ struct BagMessage {
   boost::shared_ptr<sensor_msgs::JointState> joints;
 };
 
+class BagFile;
+
 class BagReader {
  public:
   /// Opens the bags. Each that is missing, unindexed, truncated, or no bag, is a problem.
@@ -42,13 +43,13 @@ class BagReader {
   std::uint64_t count() const;
 
   /// Calls `visit` with each message recorded from `from` to `to` [ns]; earlier messages of
-  /// /tf_static come first. Stops where it returns false. Throws rosbag::BagException or
-  /// ros::Exception where a bag turns out to be damaged.
+  /// /tf_static come first. Stops where it returns false. Throws BagFormatError, a
+  /// std::runtime_error, where a bag turns out to be damaged.
   void ForEach(std::int64_t from, std::int64_t to,
                const std::function<bool(BagMessage)>& visit) const;
 
  private:
-  std::vector<std::unique_ptr<rosbag::Bag>> bags_;
+  std::vector<std::unique_ptr<BagFile>> bags_;
   std::map<std::string, std::uint64_t> counts_;
   std::int64_t begin_ = 0, end_ = 0;
 };

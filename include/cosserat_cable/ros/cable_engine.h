@@ -85,7 +85,7 @@ class CableEngine {
   struct Threads;
 
   bool Start(OutputSink* sink);
-  Instant Follow(std::int64_t time);
+  void Follow(std::int64_t time, Instant* instant);
   void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
   void Sway(std::size_t group, const std::vector<Instant>& block);
   void CollectTold();
