@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 
 #include "cosserat_cable/rod/rod_batch.h"
@@ -43,6 +44,22 @@ double StepFor(const Record& record) {
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
   return std::clamp(kStepOfInterval * *middle, kSmallestStep, kLargestStep);
+}
+
+/// Per sample, the part of all that the record moves that it has moved until then: squares of the
+/// steps from sample to sample, each channel in parts of its own.
+std::vector<double> MovedUntil(const Record& record) {
+  std::vector<double> moved(record.t.size(), 0.0);
+  for (Eigen::Index c = 0; c < record.values.cols(); ++c) {
+    const Eigen::Index n = record.values.rows() - 1;
+    const Eigen::VectorXd steps =
+        (record.values.col(c).tail(n) - record.values.col(c).head(n)).array().square();
+    const double all = steps.sum() * static_cast<double>(record.values.cols());
+    for (Eigen::Index i = 0; i < n && all > 0; ++i)
+      moved[static_cast<std::size_t>(i) + 1] += steps[i] / all;
+  }
+  std::partial_sum(moved.begin(), moved.end(), moved.begin());
+  return moved;
 }
 
 /// What steps do to a record, and how well that is known.
@@ -128,6 +145,7 @@ RecordModel::RecordModel(const Unknowns& unknowns) : unknowns_(unknowns) {
       if (problems.empty()) period = SlowestPeriod(experiment, specimen.cable);
     }
     period_.push_back(period);
+    moved_.push_back(MovedUntil(experiment.record));
     options_.push_back(options);
     sharpness_.push_back(1);
     correction_.push_back(Eigen::MatrixXd::Zero(static_cast<int>(experiment.record.t.size()),
@@ -142,14 +160,16 @@ Horizon RecordModel::PartialHorizon(double part, int samples) const {
   Horizon horizon;
   for (const Experiment& experiment : unknowns_.set().experiments) {
     const std::vector<double>& t = experiment.record.t;
-    const double least = t.front() + kPeriods * period_[horizon.size()];
-    const auto count = std::min<std::size_t>(
-        t.size(), std::max<std::size_t>(static_cast<std::size_t>(std::ceil(part * t.size())),
-                                        static_cast<std::size_t>(samples)));
+    const std::size_t e = horizon.size();
+    const double least = t.front() + kPeriods * period_[e];
+    const auto moved = static_cast<std::size_t>(
+        std::lower_bound(moved_[e].begin(), moved_[e].end(), part) - moved_[e].begin() + 1);
+    const auto count = std::clamp(
+        std::max({static_cast<std::size_t>(std::ceil(part * static_cast<double>(t.size()))), moved,
+                  static_cast<std::size_t>(samples)}),
+        std::size_t{1}, t.size());
     horizon.push_back(
-        experiment.quasi_static()
-            ? t.back()
-            : std::min(t.back(), std::max(least, t[std::max<std::size_t>(count, 1) - 1])));
+        experiment.quasi_static() ? t.back() : std::min(t.back(), std::max(least, t[count - 1])));
   }
   return horizon;
 }

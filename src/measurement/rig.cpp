@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 // A disc is turned to its start in parts of this [rad], so that no element turns too far at once.
 constexpr double kTwistStride = 0.5;
 
+// `near` picks one of several equilibria: to be about there, of the length, is enough.
+constexpr double kNear = 1e-3;
+
 /// What a clamp lets go.
 void Release(const EndCondition& end, rod::EndModel* model) {
   for (int k = 0; k < 3; ++k) {
@@ -140,7 +143,7 @@ bool Rig::Settle(rod::Rod* rod, std::string* message) {
   }
   if (!equilibrate()) return false;
   if (const auto& near = experiment_.start.near) {
-    if (!PullTo(*near, rod)) {
+    if (!PullTo(*near, kNear, rod)) {
       *message = "the cable cannot be brought near the position that start.near asks for";
       return false;
     }
@@ -161,7 +164,7 @@ bool Rig::Start(std::string* message) {
   const bool twisted = start.kind == StartCondition::Kind::kTwisted;
   rod::Rod settling(Model(twisted ? Turn::kHeld : Turn::kFree));
   if (!Settle(&settling, message)) return false;
-  if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, &settling)) {
+  if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, kThere, &settling)) {
     *message = "the cable cannot be pulled to the position that start.held asks for";
     return false;
   }
@@ -182,11 +185,14 @@ bool Rig::Start(std::string* message) {
   std::vector<Pose> nodes(elements_ + 1);
   for (int i = 0; i <= elements_; ++i) nodes[i] = settling.pose(i);
   const bool swings = !specimen_.swing.rotation.empty();
-  const bool closed = experiment_.b.kind == EndCondition::Kind::kClamp || experiment_.b.disc.guided;
-  const SwungShape swung(nodes, specimen_.swing, closed);
+  const rod::RodModel model = Model(Turn::kFree);
+  const Eigen::Matrix3d R_b = b_.q.toRotationMatrix();
+  Vector3d along;
+  for (int k = 0; k < 3; ++k) along[k] = model.b.translation[k];
+  const SwungShape swung(nodes, specimen_.swing, R_b * along.asDiagonal() * R_b.transpose());
   if (swings) nodes = swung.Nodes();
   if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
-  rod_ = std::make_unique<rod::Rod>(Model(Turn::kFree));
+  rod_ = std::make_unique<rod::Rod>(model);
   rod_->SetConfiguration(nodes);
   rod_->SetClamps(a_, b_);
   if (swings) {

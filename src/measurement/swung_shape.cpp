@@ -27,8 +27,9 @@ Quaterniond Middle(const Quaterniond& left, const Vector3d& turn) {
 
 }  // namespace
 
-SwungShape::SwungShape(const std::vector<Pose>& rest, const Swing& swing, bool closed)
-    : rest_(rest), swing_(swing), closed_(closed) {}
+SwungShape::SwungShape(const std::vector<Pose>& rest, const Swing& swing,
+                       const Eigen::Matrix3d& held)
+    : rest_(rest), swing_(swing), held_(held) {}
 
 std::vector<Pose> SwungShape::At(double time) const {
   const std::size_t last = rest_.size() - 1;
@@ -54,8 +55,8 @@ std::vector<Pose> SwungShape::At(double time) const {
     nodes[i + 1].p = nodes[i].p + Middle(nodes[i].q, swung_turn) * strain;
     nodes[i + 1].q = (nodes[i].q * RotationExp(swung_turn)).normalized();
   }
-  if (!closed_) return nodes;
-  const Vector3d gap = rest_[last].p + displacement(last) - nodes[last].p;
+  if (held_.isZero()) return nodes;
+  const Vector3d gap = held_ * (rest_[last].p + displacement(last) - nodes[last].p);
   const Vector3d twist =
       RotationLog(nodes[last].q.conjugate() * rest_[last].q * RotationExp(rotation(last)));
   for (std::size_t i = 1; i <= last; ++i) {

@@ -14,9 +14,10 @@ namespace cosserat_cable {
 /// straight shapes would.
 class SwungShape {
  public:
-  /// `rest`: nodes at even arc lengths. `closed`: the last node stays where the swing's own
-  /// displacement has it, and what is missing is spread along the cable. The swing outlives this.
-  SwungShape(const std::vector<Pose>& rest, const Swing& swing, bool closed);
+  /// `rest`: nodes at even arc lengths. `held`: takes from a vector (world) the part along which
+  /// end b is held; there the last node stays where the swing's own displacement has it, and what
+  /// is missing is spread along the cable. The swing outlives this.
+  SwungShape(const std::vector<Pose>& rest, const Swing& swing, const Eigen::Matrix3d& held);
 
   std::vector<Pose> Nodes() const { return At(0); }
   /// [m/s] in the world, [rad/s] in the section.
@@ -28,7 +29,7 @@ class SwungShape {
 
   const std::vector<Pose>& rest_;
   const Swing& swing_;
-  bool closed_;
+  Eigen::Matrix3d held_;
 };
 
 }  // namespace cosserat_cable

@@ -69,8 +69,8 @@ class RecordModel {
   void Ignore(int unknown, int experiment) { ignored_.insert({unknown, experiment}); }
 
   Horizon WholeHorizon() const;
-  /// The same part of every record, but at least `samples` samples, and two periods where the start
-  /// is unknown; quasi-static ones as a whole.
+  /// The same part of every record and of what moves in it, but at least `samples` samples, and two
+  /// periods where the start is unknown; quasi-static ones as a whole.
   Horizon PartialHorizon(double part, int samples) const;
   /// So many periods of the slowest swing of records whose start is unknown, and of the others as
   /// long; nothing where no start is unknown.
@@ -85,7 +85,9 @@ class RecordModel {
   const Unknowns& unknowns_;
   std::vector<SimulationOptions> options_;  // by experiment
   std::vector<double> period_;              // by experiment with an unknown start [s], or 0
-  std::vector<int> sharpness_;              // by experiment, of the runs behind the correction
+  std::vector<std::vector<double>>
+      moved_;                   // by experiment and sample, the part of its motion so far
+  std::vector<int> sharpness_;  // by experiment, of the runs behind the correction
   std::set<std::pair<int, int>> ignored_;
   Records usable_;
   Records correction_;  // what is added to the simulated records
