@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -14,7 +15,7 @@ namespace cosserat_cable {
 namespace {
 
 // Coarse: what this costs in accuracy, Refine gives back.
-constexpr int kElements = 20;
+constexpr int kElements = 20, kMostElements = 160;
 // Of the samples' median interval, within bounds: a record shows nothing faster than its samples.
 constexpr double kStepOfInterval = 0.25, kSmallestStep = 1e-3, kLargestStep = 5e-3;  // [s]
 constexpr double kFinest = 1e-4;                                                     // [s]
@@ -60,6 +61,16 @@ std::vector<double> MovedUntil(const Record& record) {
   }
   std::partial_sum(moved.begin(), moved.end(), moved.begin());
   return moved;
+}
+
+/// As many elements as the experiment can start with: a long cable that a weight pulls straight
+/// bends near its ends only, over a length that an element must not exceed by far.
+int ElementsFor(const Experiment& experiment, const Specimen& specimen, SimulationOptions options) {
+  options.until = -std::numeric_limits<double>::infinity();  // no further than the start
+  const int few = options.elements;
+  for (; options.elements <= kMostElements; options.elements *= 2)
+    if (SimulateExperiment(experiment, {specimen}, options).front().ok) return options.elements;
+  return few;
 }
 
 /// What steps do to a record, and how well that is known.
@@ -138,12 +149,12 @@ RecordModel::RecordModel(const Unknowns& unknowns) : unknowns_(unknowns) {
     options.dt = StepFor(experiment.record);
     usable_.push_back(UsableSamples(experiment.record));
     double period = 0;
-    if (experiment.start.kind == StartCondition::Kind::kUnknown) {
-      Problems problems;
-      const Specimen specimen = unknowns.MakeSpecimen(static_cast<int>(period_.size()),
-                                                      unknowns.StartValues(), &problems);
-      if (problems.empty()) period = SlowestPeriod(experiment, specimen.cable);
-    }
+    Problems problems;
+    const Specimen start =
+        unknowns.MakeSpecimen(static_cast<int>(period_.size()), unknowns.StartValues(), &problems);
+    if (problems.empty()) options.elements = ElementsFor(experiment, start, options);
+    if (experiment.start.kind == StartCondition::Kind::kUnknown && problems.empty())
+      period = SlowestPeriod(experiment, start.cable);
     period_.push_back(period);
     moved_.push_back(MovedUntil(experiment.record));
     options_.push_back(options);
