@@ -35,7 +35,7 @@ constexpr double kMostShift = 0.2, kResolved = 0.5;
 // Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
 constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
 // How often what differs between records is estimated anew, and the change that ends it.
-constexpr int kScatterRounds = 4;
+constexpr int kScatterRounds = 6;
 constexpr double kScatterSettled = 0.05;
 // Residuals so many times the noise show that the simulation lacks something.
 constexpr double kMisfit = 1.5;

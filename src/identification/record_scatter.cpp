@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "cable_number.h"
 #include "information.h"
@@ -65,6 +67,9 @@ class Scatter {
 
   std::vector<ParameterScatter> Find() const {
     std::vector<ParameterScatter> found;
+    // One more at a time: what one parameter's differences explain, others must not.
+    std::optional<ParameterScatter> clearest;
+    double clarity = kByChance;
     for (const char* name : kMayScatter) {
       const int of = unknowns_.Find(name);
       if (of < 0 || (std::string(name) == "eta_GJ" && unknowns_.Find(kEndDamping) >= 0)) continue;
@@ -72,10 +77,18 @@ class Scatter {
       if (shown.size() < 2) continue;
       const Differences differences = DifferencesOf(of, shown);
       const auto freedom = static_cast<int>(differences.score.size());
-      if (freedom < 1 || (!Assumed(of) && !MoreThanChance(differences))) continue;
+      if (freedom < 1) continue;
       const double sd = LikeliestSd(differences) * unknowns_.all()[of].scale;
-      if (sd > 0) found.push_back({name, sd, static_cast<int>(shown.size()), freedom});
+      const ParameterScatter scatter{name, sd, static_cast<int>(shown.size()), freedom};
+      if (!(sd > 0)) continue;
+      if (Assumed(of)) {
+        found.push_back(scatter);
+      } else if (Clarity(differences) > clarity) {
+        clarity = Clarity(differences);
+        clearest = scatter;
+      }
     }
+    if (clearest) found.push_back(*clearest);
     return found;
   }
 
@@ -145,13 +158,14 @@ class Scatter {
     return differences;
   }
 
-  /// Chi-square by Wilson and Hilferty's cube root.
-  static bool MoreThanChance(const Differences& differences) {
+  /// The standard normal deviate that is as rare as the differences' chi-square: by Wilson and
+  /// Hilferty's cube root.
+  static double Clarity(const Differences& differences) {
     const double chi_square =
         (differences.score.array().square() / differences.information.array()).sum();
     const auto freedom = static_cast<double>(differences.score.size());
     const double width = 2 / (9 * freedom);
-    return (std::cbrt(chi_square / freedom) - (1 - width)) / std::sqrt(width) > kByChance;
+    return (std::cbrt(chi_square / freedom) - (1 - width)) / std::sqrt(width);
   }
 
   /// In units of the scale. By golden section over its logarithm, between what is far below and far

@@ -18,11 +18,11 @@ struct FitEnd {
   const std::vector<std::vector<NoiseColour>>& colours;
 };
 
-/// Stiffness and damping that differ between the records: those whose differences chance makes in
-/// one of 500 sets, and those that the fit took to differ already. A pendulum's damping is taken to
-/// differ at its end, which is fastened anew, where D_E is an unknown. The variance is the
-/// likeliest, the other unknowns being estimated with it (restricted maximum likelihood, the
-/// records linear in the differences).
+/// Stiffness and damping that differ between the records: those that the fit took to differ
+/// already, and of the others the one that differs most clearly, if chance makes that in one of 500
+/// sets. A pendulum's damping is taken to differ at its end, which is fastened anew, where D_E is
+/// an unknown. The variance is the likeliest, the other unknowns being estimated with it
+/// (restricted maximum likelihood, the records linear in the differences).
 std::vector<ParameterScatter> FindScatter(const RecordModel& model, const FitEnd& end);
 
 }  // namespace cosserat_cable
