@@ -97,10 +97,13 @@ def parameter_table(data, intervals):
         value, sd = estimate
         low, high = intervals[name]
         share = half_width(name, data, intervals)
+        differs = (data.get('scatter') or {}).get(name)
+        how = 'fitted to all records' if not differs else (
+            f"the mean of {differs['records']} records, which differ by "
+            f"{number(differs['sd'])} (standard deviation)")
         rows.append([name, unit_of(name, data), number(value, sd),
                      f'{number(low, sd)} to {number(high, sd)}',
-                     '-' if share is None else '±' + percent(share), begun,
-                     'fitted to all records'])
+                     '-' if share is None else '±' + percent(share), begun, how])
     return Table(['parameter', 'unit', 'value', '95 % interval', 'relative', 'start', 'how'], rows,
                  '')
 

@@ -107,6 +107,10 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
   for (const Combination& sum : estimation.combinations)
     answer["combinations"].push_back(
         {{"text", sum.text}, {"value", sum.value}, {"sd", sum.sd}, {"unit", sum.unit}});
+  answer["scatter"] = json::object();
+  for (const ParameterScatter& one : estimation.scatter)
+    answer["scatter"][one.name] = {
+        {"sd", one.sd}, {"records", one.records}, {"freedom", one.freedom}};
   answer["noise"] = json::object();
   answer["experiments"] = json::array();
   for (std::size_t e = 0; e < set.experiments.size(); ++e) {

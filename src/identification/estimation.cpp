@@ -1,8 +1,10 @@
 #include "cosserat_cable/identification/estimation.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <memory>
 
 #include "cable_number.h"
 #include "cosserat_cable/input/number_text.h"
@@ -11,31 +13,39 @@
 #include "information.h"
 #include "noise.h"
 #include "profile.h"
+#include "record_scatter.h"
+#include "weighted_line.h"
 
 namespace cosserat_cable {
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 constexpr double kNormal95 = 1.959964;
-constexpr int kMaxRounds = 4;
+constexpr int kMaxRounds = 6;
 // A further round of steps, noise and fit is worth it where values moved by more than this part of
 // their standard deviation, or a noise by this part.
 constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
 // What the largest of a record's frequencies gains by chance, in its sum of squares by the noise's,
 // grows as twice the logarithm of their number; twice that, and a base for short records.
 constexpr double kSilentBase = 20, kSilentPerLog = 4;
+// What the simulation's remaining error may move any parameter by, in its standard deviations, and
+// the part of the noise below which a sample has none.
+constexpr double kMostShift = 0.2, kResolved = 0.5;
+// Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
+constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
+// How often what differs between records is estimated anew, and the change that ends it.
+constexpr int kScatterRounds = 6;
+constexpr double kScatterSettled = 0.05;
 // Residuals so many times the noise show that the simulation lacks something.
 constexpr double kMisfit = 1.5;
 
-double RangeOf(const Eigen::MatrixXd& values, int column) {
-  return values.col(column).maxCoeff() - values.col(column).minCoeff();
-}
-
-/// Residuals of a channel at the samples that count.
-Eigen::VectorXd UsableResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
-                                const Eigen::MatrixXd& usable, int column) {
+/// Residuals of a channel at the samples that `count`.
+Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
+                                 const Eigen::MatrixXd& count, int column) {
   std::vector<double> residuals;
   for (Eigen::Index i = 0; i < simulated.rows(); ++i)
-    if (usable(i, column) > 0)
+    if (count(i, column) > 0)
       residuals.push_back(experiment.record.values(i, column) - simulated(i, column));
   return Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
 }
@@ -51,7 +61,16 @@ class Work {
   Work(const Unknowns& unknowns, const EstimationOptions& options)
       : unknowns_(unknowns), options_(options), model_(unknowns) {}
 
-  Estimation Run();
+  /// False: there is none, and Answer says why.
+  bool FitFromStart();
+  /// From where another fit ended, which knew less of what differs between records.
+  bool FitFrom(const Work& before);
+  std::vector<ParameterScatter> Scatter() const {
+    return FindScatter(model_, {optimum_.values, optimum_.residuals, optimum_.jacobian, colours_});
+  }
+  /// @pre the fit succeeded
+  void Report(const std::vector<ParameterScatter>& scatter);
+  Estimation Answer() const { return estimation_; }
 
  private:
   const std::vector<Experiment>& experiments() const { return unknowns_.set().experiments; }
@@ -62,15 +81,22 @@ class Work {
     return NoiseOfSmooth(experiments()[experiment].record.values.col(column),
                          model_.usable()[experiment].col(column));
   }
+  Eigen::MatrixXd Counted(std::size_t experiment) const;
+  bool Sharpen(const Eigen::MatrixXd& jacobian);
   bool ShownByNone(int unknown) const;
   bool UpdateNoise();
   bool FitToEnd();
+  bool Interrupted() {
+    estimation_.interrupted = true;
+    return false;
+  }
   void LeaveOut(std::size_t experiment, const std::string& why);
   void LeaveOutDamaged();
   void LeaveOutShort();
   void LeaveOutSilent();
   bool Conclude();
-  void Report();
+  double QuantileOf(int unknown, const Determination& determination,
+                    const Information& information) const;
   void ReportChannels();
   void KeepDefaults(const Determination& determination);
 
@@ -82,7 +108,40 @@ class Work {
   Records simulated_;
   std::vector<std::vector<NoiseColour>> colours_;
   Estimation estimation_;
+  Clock::time_point begin_ = Clock::now();
 };
+
+/// One for samples that a sensor measured and the simulation resolves; all that were measured where
+/// it hardly resolves any.
+Eigen::MatrixXd Work::Counted(std::size_t e) const {
+  Eigen::MatrixXd counted = model_.usable()[e];
+  for (Eigen::Index c = 0; c < counted.cols(); ++c) {
+    const auto resolved =
+        (model_.error()[e].col(c).array().abs() < kResolved * noise_[e][c]).cast<double>();
+    if (2 * resolved.sum() > static_cast<double>(counted.rows()))
+      counted.col(c).array() *= resolved;
+  }
+  return counted;
+}
+
+/// Finer runs behind the corrections of experiments whose remaining errors move the parameters: by
+/// no more, in standard deviations of any of them, than the part of the error that lies in the
+/// derivatives' space is long.
+bool Work::Sharpen(const Eigen::MatrixXd& jacobian) {
+  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
+  const Eigen::MatrixXd space =
+      qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+  bool sharper = false;
+  Eigen::Index row = 0;
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const Eigen::MatrixXd error = model_.error()[e].cwiseProduct(SampleWeights(model_, e, noise_));
+    const Eigen::Map<const Eigen::VectorXd> column(error.data(), error.size());
+    const double shift = (space.middleRows(row, error.size()).transpose() * column).norm();
+    row += error.size();
+    if (shift > kMostShift) sharper |= model_.Sharpen(static_cast<int>(e));
+  }
+  return sharper;
+}
 
 /// Where the noise is not given, the residuals say what it is. False: it had been right.
 bool Work::UpdateNoise() {
@@ -91,10 +150,9 @@ bool Work::UpdateNoise() {
     for (std::size_t c = 0; c < experiments()[e].channels.size(); ++c) {
       if (experiments()[e].channels[c].sigma) continue;
       const int column = static_cast<int>(c);
-      const double rms = std::max(
-          Rms(UsableResiduals(experiments()[e], simulated_[e], model_.usable()[e], column)),
-          kBestChannel * RangeOf(experiments()[e].record.values, column));
-      if (!(rms > 0)) continue;
+      const double rms =
+          std::max(Rms(CountedResiduals(experiments()[e], simulated_[e], Counted(e), column)),
+                   SmallestNoise(experiments()[e], column));
       changed |= std::abs(rms / noise_[e][column] - 1) > kNoiseSettled;
       noise_[e][column] = rms;
     }
@@ -105,16 +163,17 @@ bool Work::FitToEnd() {
   FitResult fit;
   bool noise_changed = true;
   for (int round = 0; round < kMaxRounds; ++round) {
-    if (!Tell("comparing with finer steps", 0.35 + 0.1 * round)) return false;
+    if (!Tell("comparing with finer steps", kPartOfStart + kPartOfRound * round))
+      return Interrupted();
     estimation_.discretisation = model_.Refine(optimum_.values);
     const Eigen::VectorXd before = optimum_.values;
     const bool polished = !noise_changed && Polish(model_, fit.jacobian, noise_, &optimum_.values);
     if (!polished) {
       const FitProgress progress = [&](const std::string& what) {
-        return Tell("fitting whole records, " + what, 0.4 + 0.1 * round);
+        return Tell("fitting whole records, " + what, kPartOfStart + kPartOfRound * (round + 0.5));
       };
-      fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, false, progress);
-      if (fit.interrupted) return false;
+      fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {}, progress);
+      if (fit.interrupted) return Interrupted();
       if (!fit.ok) {
         estimation_.message = "the fit does not converge: " + fit.message;
         return false;
@@ -128,11 +187,14 @@ bool Work::FitToEnd() {
     for (int i = 0; i < unknowns_.size(); ++i)
       moved = std::max(moved, std::abs(optimum_.values[i] - before[i]) / unknowns_.all()[i].scale *
                                   fit.jacobian.col(i).norm());
-    if (round > 0 && !noise_changed && moved < kSettled) break;
+    const bool sharper = Sharpen(fit.jacobian);
+    if (round > 0 && !noise_changed && !sharper && moved < kSettled) break;
   }
   LeaveOutShort();
   LeaveOutSilent();
-  return Conclude();
+  if (Conclude()) return true;
+  estimation_.interrupted = estimation_.message.empty();
+  return false;
 }
 
 /// Whether all records that the unknown concerns count for nothing.
@@ -182,10 +244,10 @@ void Work::LeaveOutSilent() {
     for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c) {
       const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(
           simulated_[e].rows(), simulated_[e].cols(), experiments()[e].record.values.col(c).mean());
-      const Eigen::MatrixXd& usable = model_.usable()[e];
+      const Eigen::MatrixXd counted = Counted(e);
       const double variance = noise_[e][c] * noise_[e][c];
-      gain += (UsableResiduals(experiments()[e], constant, usable, c).squaredNorm() -
-               UsableResiduals(experiments()[e], simulated_[e], usable, c).squaredNorm()) /
+      gain += (CountedResiduals(experiments()[e], constant, counted, c).squaredNorm() -
+               CountedResiduals(experiments()[e], simulated_[e], counted, c).squaredNorm()) /
               variance;
       samples += simulated_[e].rows();
     }
@@ -210,7 +272,7 @@ bool Work::Conclude() {
     colours_.emplace_back();
     for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c)
       colours_.back().push_back(ColourOf(
-          UsableResiduals(experiments()[e], simulated_[e], model_.usable()[e], c) / noise_[e][c]));
+          CountedResiduals(experiments()[e], simulated_[e], Counted(e), c) / noise_[e][c]));
   }
   return true;
 }
@@ -228,11 +290,28 @@ void Work::KeepDefaults(const Determination& determination) {
     moved = true;
   }
   if (!moved) return;
-  const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, false,
+  const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {},
                             [&](const std::string& what) { return Tell(what, 0.8); });
   if (!fit.ok) return;
   optimum_.values = fit.values;
   simulated_ = model_.Simulate({fit.values}, model_.WholeHorizon()).front().records;
+}
+
+/// Standard deviations to the ends of the 95 % interval: Student's, with the freedom that is left
+/// by the estimated scatter's share of the variance (Welch and Satterthwaite).
+double Work::QuantileOf(int unknown, const Determination& determination,
+                        const Information& information) const {
+  if (estimation_.scatter.empty()) return kNormal95;
+  std::vector<int> common;
+  for (const int i : determination.determined)
+    if (unknowns_.all()[i].kind != Unknown::Kind::kScatter) common.push_back(i);
+  const double without = CovarianceOf(information, common)(unknown, unknown);
+  const double with = determination.covariance(unknown, unknown);
+  const double share = with > 0 ? std::max(0.0, 1 - without / with) : 0.0;
+  if (!(share > 0)) return kNormal95;
+  int freedom = estimation_.scatter.front().freedom;
+  for (const ParameterScatter& one : estimation_.scatter) freedom = std::min(freedom, one.freedom);
+  return StudentQuantile(freedom / (share * share));
 }
 
 void Work::ReportChannels() {
@@ -246,7 +325,7 @@ void Work::ReportChannels() {
       channel.column = experiment.channels[c].column;
       channel.sigma = noise_[e][column];
       channel.sigma_given = experiment.channels[c].sigma.has_value();
-      channel.rms = Rms(UsableResiduals(experiment, simulated_[e], model_.usable()[e], column));
+      channel.rms = Rms(CountedResiduals(experiment, simulated_[e], Counted(e), column));
       channel.correlation_samples = colours_[e][c].correlation_samples;
       const double noise = channel.sigma_given ? channel.sigma : SmoothNoise(e, column);
       if (channel.rms > kMisfit * noise)
@@ -261,7 +340,8 @@ void Work::ReportChannels() {
   }
 }
 
-void Work::Report() {
+void Work::Report(const std::vector<ParameterScatter>& scatter) {
+  estimation_.scatter = scatter;
   const Information information = InformationOf(model_, optimum_.jacobian, colours_);
   const Determination determination = Determine(model_, optimum_.values, information);
   optimum_.covariance = determination.covariance;
@@ -285,14 +365,19 @@ void Work::Report() {
                         "] was left out: see the warnings";
     if (estimate.determined) {
       estimate.sd = sds[i] * estimate.unknown.scale;
-      estimate.low = estimate.value - kNormal95 * estimate.sd;
-      estimate.high = estimate.value + kNormal95 * estimate.sd;
+      const double quantile = QuantileOf(i, determination, information);
+      estimate.low = estimate.value - quantile * estimate.sd;
+      estimate.high = estimate.value + quantile * estimate.sd;
       const auto place = std::find(shown.begin(), shown.end(), i);
       if (place != shown.end()) {
         estimate.profile = profiles[static_cast<std::size_t>(place - shown.begin())];
-        if (estimate.profile.value.size() > 2)
-          std::tie(estimate.low, estimate.high) = IntervalOf(estimate.profile, estimate.value);
+        if (const auto interval = IntervalOf(estimate.profile, estimate.value)) {
+          const double wider = quantile / kNormal95;
+          estimate.low = estimate.value + wider * (interval->first - estimate.value);
+          estimate.high = estimate.value + wider * (interval->second - estimate.value);
+        }
       }
+      estimate.low = std::max(estimate.low, estimate.unknown.lower);
     }
     estimation_.parameters.push_back(std::move(estimate));
   }
@@ -307,11 +392,17 @@ void Work::Report() {
   for (int i = 0; i < unknowns_.size(); ++i)
     if (estimation_.parameters[i].determined) values[i] = fitted[i];
   estimation_.cable = unknowns_.FilledKeys(values);
+  for (const ParameterScatter& one : scatter)
+    estimation_.warnings.push_back(
+        "[" + one.name + "] differs between the " + std::to_string(one.records) +
+        " records that show it by more than their noise: standard deviation " +
+        FormatRounded(one.sd) + " " + UnitOf(one.name) + "; the intervals count it");
   ReportChannels();
+  estimation_.ok = true;
+  estimation_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
-Estimation Work::Run() {
-  const auto begin = std::chrono::steady_clock::now();
+bool Work::FitFromStart() {
   noise_ = GuessNoise(model_);
   std::vector<Eigen::VectorXd> guesses;
   if (!options_.guesses.empty()) {
@@ -330,36 +421,64 @@ Estimation Work::Run() {
     estimation_.interrupted = start.interrupted;
     estimation_.message =
         "no start was found from which the records can be simulated: " + start.message;
-    return estimation_;
+    return false;
   }
   optimum_.values = start.values;
-  if (!FitToEnd()) {
-    estimation_.interrupted = estimation_.message.empty();
-    return estimation_;
+  return FitToEnd();
+}
+
+bool Work::FitFrom(const Work& before) {
+  noise_ = before.noise_;
+  optimum_.values = unknowns_.StartValues();
+  for (int i = 0; i < unknowns_.size(); ++i) {
+    const int there = before.unknowns_.Find(unknowns_.all()[i].name);
+    if (there >= 0) optimum_.values[i] = before.optimum_.values[there];
   }
-  Report();
-  estimation_.ok = true;
-  estimation_.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  return estimation_;
+  for (std::size_t e = 0; e < experiments().size(); ++e)
+    if (before.model_.IsLeftOut(static_cast<int>(e))) model_.LeaveOut(static_cast<int>(e));
+  estimation_.warnings = before.estimation_.warnings;
+  begin_ = before.begin_;
+  return FitToEnd();
+}
+
+bool Settled(const std::vector<ParameterScatter>& before,
+             const std::vector<ParameterScatter>& after) {
+  return std::equal(before.begin(), before.end(), after.begin(), after.end(),
+                    [](const ParameterScatter& a, const ParameterScatter& b) {
+                      return a.name == b.name && std::abs(a.sd / b.sd - 1) < kScatterSettled;
+                    });
 }
 
 }  // namespace
 
 Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
                     Problems* problems) {
-  const Unknowns unknowns(set, options.unknowns, problems);
+  UnknownOptions unknown_options = options.unknowns;
+  auto unknowns = std::make_unique<Unknowns>(set, unknown_options, problems);
   if (problems->empty()) {
     // The start must be a cable; what is wrong with it is the user's to know.
     for (std::size_t e = 0; e < set.experiments.size(); ++e)
-      unknowns.MakeSpecimen(static_cast<int>(e), unknowns.StartValues(), problems);
+      unknowns->MakeSpecimen(static_cast<int>(e), unknowns->StartValues(), problems);
   }
-  if (!problems->empty() || unknowns.size() == 0) {
+  if (!problems->empty() || unknowns->size() == 0) {
     Estimation none;
     none.message = problems->empty() ? "the set names nothing to be identified" : "";
     return none;
   }
-  return Work(unknowns, options).Run();
+  auto work = std::make_unique<Work>(*unknowns, options);
+  if (!work->FitFromStart()) return work->Answer();
+  for (int round = 0; round < kScatterRounds && options.scatter; ++round) {
+    const std::vector<ParameterScatter> found = work->Scatter();
+    if (Settled(unknown_options.scatter, found)) break;
+    unknown_options.scatter = found;
+    auto more = std::make_unique<Unknowns>(set, unknown_options, problems);
+    auto next = std::make_unique<Work>(*more, options);
+    if (!next->FitFrom(*work)) return next->Answer();
+    work = std::move(next);
+    unknowns = std::move(more);
+  }
+  work->Report(unknown_options.scatter);
+  return work->Answer();
 }
 
 }  // namespace cosserat_cable

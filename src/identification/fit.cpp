@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "noise.h"
@@ -16,9 +17,21 @@ namespace {
 constexpr int kMaxIterations = 40;
 constexpr int kLooseIterations = 12;
 constexpr double kLoose = 1e-3, kTight = 1e-8;  // last relative change of the cost
+// No channel is taken to be better than this part of the widest range of its kind in its record:
+// simulations are not.
+constexpr double kBestChannel = 1e-7;
+// Half of a sum of squares: what moves no parameter by a tenth of its standard deviation. One such
+// step may be a step that was cut short, three in a row are the end.
+constexpr double kSmallGain = 5e-3;
+constexpr int kSmallGains = 3;
 // Parts of the records that are fitted one after the other, and the fewest samples of a part.
 constexpr double kParts[] = {0.06, 0.25, 1.0};
 constexpr int kFewestSamples = 40;
+// Of the slowest swing: in the first, the start is seen whatever the cable, in the second both.
+constexpr double kStartPeriods[] = {0.3, 1.0};
+// Of what is left over, what a parameter should explain at least when it moves by its whole size.
+constexpr double kPower = 0.01;
+const FitOptions kOnTheWay = {true, {}};
 // Where the search looks: around the start, within these factors.
 constexpr double kStiffnessSpread = 1.6, kDampingSpread = 6.0;
 constexpr int kPoints = 24, kBest = 2;
@@ -72,17 +85,22 @@ class RecordCost : public ceres::CostFunction {
   Eigen::MatrixXd* jacobian_;
 };
 
+/// Ends a fit where the cost falls no more by what counts beside the noise.
 class Callback : public ceres::IterationCallback {
  public:
   explicit Callback(const FitProgress& progress) : progress_(progress) {}
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (!progress_) return ceres::SOLVER_CONTINUE;
-    return progress_("iteration " + std::to_string(summary.iteration)) ? ceres::SOLVER_CONTINUE
-                                                                       : ceres::SOLVER_ABORT;
+    if (progress_ && !progress_("iteration " + std::to_string(summary.iteration)))
+      return ceres::SOLVER_ABORT;
+    const bool small = summary.iteration > 0 && summary.cost_change < kSmallGain;
+    small_gains_ = small ? small_gains_ + 1 : 0;
+    return small_gains_ >= kSmallGains ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
+                                       : ceres::SOLVER_CONTINUE;
   }
 
  private:
   const FitProgress& progress_;
+  int small_gains_ = 0;
 };
 
 int SamplesUntil(const Experiment& experiment, double time) {
@@ -133,6 +151,17 @@ std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
 
 }  // namespace
 
+double SmallestNoise(const Experiment& experiment, int channel) {
+  const auto& channels = experiment.channels;
+  double widest = 0;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].quantity != channels[static_cast<std::size_t>(channel)].quantity) continue;
+    const auto column = experiment.record.values.col(static_cast<Eigen::Index>(c));
+    widest = std::max(widest, column.maxCoeff() - column.minCoeff());
+  }
+  return std::max(kBestChannel * widest, std::numeric_limits<double>::min() * 1e10);
+}
+
 NoiseLevels GuessNoise(const RecordModel& model) {
   NoiseLevels noise;
   for (const Experiment& experiment : model.unknowns().set().experiments) {
@@ -140,27 +169,41 @@ NoiseLevels GuessNoise(const RecordModel& model) {
     const Eigen::MatrixXd& usable = model.usable()[noise.size()];
     Eigen::VectorXd levels(values.cols());
     for (Eigen::Index c = 0; c < values.cols(); ++c) {
-      const double range = values.col(c).maxCoeff() - values.col(c).minCoeff();
-      const double floor =
-          std::max(kBestChannel * range, std::numeric_limits<double>::min() * 1e10);
       const auto& sigma = experiment.channels[static_cast<std::size_t>(c)].sigma;
-      levels[c] = std::max(sigma ? *sigma : NoiseOfSmooth(values.col(c), usable.col(c)), floor);
+      levels[c] = std::max(sigma ? *sigma : NoiseOfSmooth(values.col(c), usable.col(c)),
+                           SmallestNoise(experiment, static_cast<int>(c)));
     }
     noise.push_back(levels);
   }
   return noise;
 }
 
+Eigen::MatrixXd SampleWeights(const RecordModel& model, std::size_t e, const NoiseLevels& noise) {
+  Eigen::MatrixXd weights = model.usable()[e];
+  for (Eigen::Index c = 0; c < weights.cols(); ++c)
+    for (Eigen::Index i = 0; i < weights.rows(); ++i)
+      weights(i, c) /= std::hypot(noise[e][c], model.error()[e](i, c));
+  return weights;
+}
+
+int FirstRow(const RecordModel& model, int experiment) {
+  int row = 0;
+  for (int e = 0; e < experiment; ++e)
+    row += static_cast<int>(model.usable()[static_cast<std::size_t>(e)].size());
+  return row;
+}
+
 Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorXd& values,
                                   const Records& simulated, const NoiseLevels& noise) {
   const auto& experiments = model.unknowns().set().experiments;
   std::vector<double> residuals;
-  for (std::size_t e = 0; e < experiments.size(); ++e)
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const Eigen::MatrixXd weights = SampleWeights(model, e, noise);
     for (int c = 0; c < simulated[e].cols(); ++c)
       for (int i = 0; i < simulated[e].rows(); ++i)
-        residuals.push_back(model.usable()[e](i, c) *
-                            (experiments[e].record.values(i, c) - simulated[e](i, c)) /
-                            noise[e][c]);
+        residuals.push_back(weights(i, c) *
+                            (experiments[e].record.values(i, c) - simulated[e](i, c)));
+  }
   for (int i = 0; i < model.unknowns().size(); ++i) {
     const Unknown& u = model.unknowns().all()[i];
     if (u.prior_sd > 0) residuals.push_back((u.start - values[i]) / u.prior_sd);
@@ -177,6 +220,9 @@ Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
   for (const Eigen::MatrixXd& record : records) rows += static_cast<int>(record.size());
   for (const Unknown& u : model.unknowns().all()) priors += u.prior_sd > 0;
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows + priors, unknowns);
+  std::vector<Eigen::MatrixXd> weights;
+  for (std::size_t e = 0; e < records.size(); ++e)
+    weights.push_back(SampleWeights(model, e, noise));
   int prior = rows;
   for (int i = 0; i < unknowns; ++i) {
     int row = 0;
@@ -185,8 +231,7 @@ Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
       for (int c = 0; c < records[e].cols(); ++c) {
         const int n = static_cast<int>(records[e].rows());
         if (by.size() > 0)
-          jacobian.col(i).segment(row, n) =
-              -by.col(c).cwiseProduct(model.usable()[e].col(c).head(n)) / noise[e][c];
+          jacobian.col(i).segment(row, n) = -by.col(c).cwiseProduct(weights[e].col(c).head(n));
         row += n;
       }
     }
@@ -197,7 +242,7 @@ Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
 }
 
 FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
-              const NoiseLevels& noise, bool loose, const FitProgress& progress) {
+              const NoiseLevels& noise, const FitOptions& fit, const FitProgress& progress) {
   const Unknowns& unknowns = model.unknowns();
   int count = 0;
   for (std::size_t e = 0; e < horizon.size(); ++e) {
@@ -217,11 +262,13 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
     if (std::isfinite(u.lower)) problem.SetParameterLowerBound(x.data(), i, u.lower / u.scale);
     if (std::isfinite(u.upper)) problem.SetParameterUpperBound(x.data(), i, u.upper / u.scale);
   }
+  if (!fit.held.empty())
+    problem.SetManifold(x.data(), new ceres::SubsetManifold(unknowns.size(), fit.held));
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = loose ? kLooseIterations : kMaxIterations;
-  options.function_tolerance = loose ? kLoose : kTight;
-  options.parameter_tolerance = loose ? 1e-4 : 1e-7;
+  options.max_num_iterations = fit.loose ? kLooseIterations : kMaxIterations;
+  options.function_tolerance = fit.loose ? kLoose : kTight;
+  options.parameter_tolerance = fit.loose ? 1e-4 : 1e-7;
   options.logging_type = ceres::SILENT;
   Callback callback(progress);
   options.callbacks.push_back(&callback);
@@ -263,11 +310,58 @@ bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const Noi
   return false;
 }
 
+/// The cable's parameters that explain little of what is left over, however far they are moved:
+/// while much is, they would only be led astray.
+std::vector<int> Powerless(const RecordModel& model, const Eigen::VectorXd& values,
+                           const Horizon& horizon, const NoiseLevels& noise) {
+  std::vector<int> powerless;
+  const RecordModel::Derivatives found =
+      model.Differentiate(values, horizon, RecordModel::Difference::kForward);
+  if (!found.at.ok) return powerless;
+  const Eigen::MatrixXd jacobian = WeightedJacobian(model, found, noise);
+  const double left = WeightedResiduals(model, values, found.at.records, noise).squaredNorm();
+  for (int i = 0; i < model.unknowns().size(); ++i)
+    if (model.unknowns().all()[i].kind == Unknown::Kind::kCable &&
+        jacobian.col(i).squaredNorm() < kPower * left)
+      powerless.push_back(i);
+  return powerless;
+}
+
+/// From a point, to the first part of the records.
+FitResult FitFirst(const RecordModel& model, Eigen::VectorXd values, const Horizon& horizon,
+                   const NoiseLevels& noise, const FitProgress& progress) {
+  FitOptions options = kOnTheWay;
+  for (const double periods : kStartPeriods) {
+    const std::optional<Horizon> beginning = model.Beginning(periods);
+    if (!beginning) return Fit(model, values, horizon, noise, options, progress);
+    if (periods == kStartPeriods[0]) {
+      for (int i = 0; i < model.unknowns().size(); ++i)
+        if (model.unknowns().all()[i].kind == Unknown::Kind::kCable) options.held.push_back(i);
+    } else {
+      options.held = Powerless(model, values, *beginning, noise);
+    }
+    const FitResult fit = Fit(model, values, *beginning, noise, options, progress);
+    if (fit.interrupted) return fit;
+    if (fit.ok) values = fit.values;
+  }
+  options.held = Powerless(model, values, horizon, noise);
+  return Fit(model, values, horizon, noise, options, progress);
+}
+
 FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
                       const NoiseLevels& noise, const FitProgress& progress) {
-  std::vector<Eigen::VectorXd> points = PointsAround(model->unknowns());
+  std::vector<Eigen::VectorXd> points = more;
   points.push_back(model->unknowns().StartValues());
-  points.insert(points.end(), more.begin(), more.end());
+  // Where a start is unknown, all points look alike before it is fitted.
+  const auto& experiments = model->unknowns().set().experiments;
+  const bool comparable =
+      std::none_of(experiments.begin(), experiments.end(), [](const Experiment& experiment) {
+        return experiment.start.kind == StartCondition::Kind::kUnknown;
+      });
+  if (comparable) {
+    const std::vector<Eigen::VectorXd> around = PointsAround(model->unknowns());
+    points.insert(points.end(), around.begin(), around.end());
+  }
   const Horizon first = model->PartialHorizon(kParts[0], kFewestSamples);
   if (progress && !progress("looking for a start")) {
     FitResult stopped;
@@ -290,7 +384,7 @@ FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& mo
   if (ranking.empty()) return best;
   std::sort(ranking.begin(), ranking.end());
   for (std::size_t k = 0; k < std::min<std::size_t>(kBest, ranking.size()); ++k) {
-    FitResult fit = Fit(*model, points[ranking[k].second], first, noise, true, progress);
+    const FitResult fit = FitFirst(*model, points[ranking[k].second], first, noise, progress);
     if (fit.interrupted) return fit;
     if (fit.ok && (!best.ok || fit.cost < best.cost)) best = fit;
   }
@@ -299,7 +393,9 @@ FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& mo
     const Horizon horizon =
         last ? model->WholeHorizon() : model->PartialHorizon(kParts[part], kFewestSamples);
     if (last) LeaveOutUnseen(best.values, noise, model);
-    best = Fit(*model, best.values, horizon, noise, true, progress);
+    FitOptions options = kOnTheWay;
+    if (!comparable) options.held = Powerless(*model, best.values, horizon, noise);
+    best = Fit(*model, best.values, horizon, noise, options, progress);
     if (best.interrupted) return best;
   }
   return best;

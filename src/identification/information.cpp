@@ -101,31 +101,44 @@ Combination Combine(const RecordModel& model, const Eigen::VectorXd& values,
 
 }  // namespace
 
+Information InformationOfRecord(const RecordModel& model, const Eigen::MatrixXd& jacobian,
+                                const std::vector<std::vector<NoiseColour>>& colours,
+                                int experiment) {
+  const auto unknowns = static_cast<int>(jacobian.cols());
+  Information information{Eigen::MatrixXd::Zero(unknowns, unknowns),
+                          Eigen::MatrixXd::Zero(unknowns, unknowns)};
+  const auto n = static_cast<int>(
+      model.unknowns().set().experiments[static_cast<std::size_t>(experiment)].record.t.size());
+  int row = FirstRow(model, experiment);
+  for (const NoiseColour& colour : colours[static_cast<std::size_t>(experiment)]) {
+    const Eigen::MatrixXd block = jacobian.middleRows(row, n);
+    Eigen::MatrixXd sum = block.transpose() * block;
+    information.expected += sum;
+    for (int lag = 1; lag < std::min<int>(n, static_cast<int>(colour.autocorrelation.size()));
+         ++lag) {
+      const Eigen::MatrixXd product =
+          block.topRows(n - lag).transpose() * block.bottomRows(n - lag);
+      sum +=
+          colour.autocorrelation[static_cast<std::size_t>(lag)] * (product + product.transpose());
+    }
+    information.scatter += colour.sd * colour.sd * sum;
+    row += n;
+  }
+  return information;
+}
+
 Information InformationOf(const RecordModel& model, const Eigen::MatrixXd& jacobian,
                           const std::vector<std::vector<NoiseColour>>& colours) {
-  const auto unknowns = static_cast<int>(jacobian.cols());
-  Information information;
-  information.expected = jacobian.transpose() * jacobian;
-  information.scatter = Eigen::MatrixXd::Zero(unknowns, unknowns);
-  const auto& experiments = model.unknowns().set().experiments;
-  int row = 0;
-  for (std::size_t e = 0; e < experiments.size(); ++e) {
-    const auto n = static_cast<int>(experiments[e].record.t.size());
-    for (const NoiseColour& colour : colours[e]) {
-      const Eigen::MatrixXd block = jacobian.middleRows(row, n);
-      Eigen::MatrixXd sum = block.transpose() * block;
-      for (int lag = 1; lag < std::min<int>(n, static_cast<int>(colour.autocorrelation.size()));
-           ++lag) {
-        const Eigen::MatrixXd product =
-            block.topRows(n - lag).transpose() * block.bottomRows(n - lag);
-        sum += colour.autocorrelation[lag] * (product + product.transpose());
-      }
-      information.scatter += colour.sd * colour.sd * sum;
-      row += n;
-    }
+  const auto experiments = static_cast<int>(model.unknowns().set().experiments.size());
+  const auto priors = jacobian.rows() - FirstRow(model, experiments);
+  const Eigen::MatrixXd of_priors =
+      jacobian.bottomRows(priors).transpose() * jacobian.bottomRows(priors);
+  Information information{of_priors, of_priors};
+  for (int e = 0; e < experiments; ++e) {
+    const Information record = InformationOfRecord(model, jacobian, colours, e);
+    information.expected += record.expected;
+    information.scatter += record.scatter;
   }
-  const auto priors = static_cast<int>(jacobian.rows()) - row;
-  information.scatter += jacobian.bottomRows(priors).transpose() * jacobian.bottomRows(priors);
   return information;
 }
 

@@ -23,6 +23,11 @@ struct Information {
 Information InformationOf(const RecordModel& model, const Eigen::MatrixXd& jacobian,
                           const std::vector<std::vector<NoiseColour>>& colours);
 
+/// The same of one experiment's record alone.
+Information InformationOfRecord(const RecordModel& model, const Eigen::MatrixXd& jacobian,
+                                const std::vector<std::vector<NoiseColour>>& colours,
+                                int experiment);
+
 /// expected^-1 scatter expected^-1 over the unknowns in `which`, zero elsewhere.
 Eigen::MatrixXd CovarianceOf(const Information& information, const std::vector<int>& which);
 

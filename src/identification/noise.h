@@ -12,7 +12,7 @@ namespace cosserat_cable {
 double NoiseOfSmooth(const Eigen::VectorXd& samples,
                      const Eigen::VectorXd& usable = Eigen::VectorXd());
 
-/// An autoregressive model of residuals, of the order that Akaike's criterion asks for.
+/// An autoregressive model of residuals, of the order that Schwarz's criterion asks for.
 struct NoiseColour {
   double sd = 0;                        ///< marginal
   std::vector<double> autocorrelation;  ///< at lags 0, 1, ...: until it has died away

@@ -43,6 +43,15 @@ struct Rated {
   Eigen::MatrixXd information;  // of one record, in units of the scales
 };
 
+/// What is left of a record's information where the unknown is another one in each record: its own
+/// is integrated out.
+void LoseToScatter(int unknown, double sd, const Unknowns& unknowns, Eigen::MatrixXd* information) {
+  if (unknown < 0) return;
+  const double precision = std::pow(unknowns.all()[unknown].scale / sd, 2);
+  const Eigen::VectorXd column = information->col(unknown);
+  *information -= column * column.transpose() / (precision + column[unknown]);
+}
+
 double HalfWidth(const Eigen::MatrixXd& information, int target, double value, double scale) {
   // An unknown that no record shows is not looked for either.
   std::vector<int> which;
@@ -185,6 +194,8 @@ Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const Pla
         static_cast<int>(rigs.experiments[e].record.t.size() * rigs.experiments[e].channels.size());
     const Eigen::MatrixXd block = jacobian.middleRows(row, n);
     rated[e].information = block.transpose() * block;
+    for (const ParameterScatter& one : estimation.scatter)
+      LoseToScatter(unknowns.Find(one.name), one.sd, unknowns, &rated[e].information);
     row += n;
   }
 

@@ -76,22 +76,24 @@ std::vector<Profile> FindProfiles(const RecordModel& model, const Optimum& optim
   return profiles;
 }
 
-std::pair<double, double> IntervalOf(const Profile& profile, double value) {
+std::optional<std::pair<double, double>> IntervalOf(const Profile& profile, double value) {
   // Along the signed root of the deviance, which is straight where the problem is linear.
-  std::vector<std::pair<double, double>> roots;  // root, value
+  std::vector<std::pair<double, double>> roots;  // value, root
   for (std::size_t k = 0; k < profile.value.size(); ++k)
-    roots.push_back({std::copysign(std::sqrt(profile.deviance[k]), profile.value[k] - value),
-                     profile.value[k]});
+    roots.push_back({profile.value[k],
+                     std::copysign(std::sqrt(profile.deviance[k]), profile.value[k] - value)});
   std::sort(roots.begin(), roots.end());
+  for (std::size_t k = 1; k < roots.size(); ++k)
+    if (!(roots[k].second > roots[k - 1].second)) return std::nullopt;
+  if (roots.size() < 3 || roots.front().second > -1 || roots.back().second < 1) return std::nullopt;
   const auto at = [&](double root) {
-    if (roots.size() < 2) return value;
     std::size_t k = 1;
-    while (k + 1 < roots.size() && roots[k].first < root) ++k;
-    const auto& [r0, v0] = roots[k - 1];
-    const auto& [r1, v1] = roots[k];
-    return r1 > r0 ? v0 + (root - r0) / (r1 - r0) * (v1 - v0) : value;
+    while (k + 1 < roots.size() && roots[k].second < root) ++k;
+    const auto& [v0, r0] = roots[k - 1];
+    const auto& [v1, r1] = roots[k];
+    return v0 + (root - r0) / (r1 - r0) * (v1 - v0);
   };
-  return {at(-kNormal95), at(kNormal95)};
+  return std::pair{at(-kNormal95), at(kNormal95)};
 }
 
 }  // namespace cosserat_cable

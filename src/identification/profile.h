@@ -1,6 +1,8 @@
 // The likelihood along one unknown, with all others at their best.
 #pragma once
 
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "cosserat_cable/identification/estimation.h"
@@ -22,7 +24,8 @@ struct Optimum {
 std::vector<Profile> FindProfiles(const RecordModel& model, const Optimum& optimum,
                                   const NoiseLevels& noise, const std::vector<int>& which);
 
-/// Ends of the 95 % interval: where the deviance is 3.84.
-std::pair<double, double> IntervalOf(const Profile& profile, double value);
+/// Ends of the 95 % interval: where the deviance is 3.84. Nothing where the profile does not rise
+/// to both sides of the value, or not far enough.
+std::optional<std::pair<double, double>> IntervalOf(const Profile& profile, double value);
 
 }  // namespace cosserat_cable

@@ -38,7 +38,7 @@ Specimen EstimateStart(const Experiment& experiment, const CableKeys& keys, Prob
   // Once as the steps show it, then without their errors.
   for (const bool refined : {false, true}) {
     if (refined) model.Refine(values);
-    const FitResult fit = Fit(model, values, horizon, noise, false, FitProgress());
+    const FitResult fit = Fit(model, values, horizon, noise, {}, FitProgress());
     if (!fit.ok) {
       problems->Add(experiment.mark,
                     "its start is unknown, and could not be found from the record: " + fit.message);

@@ -15,8 +15,9 @@ constexpr double kPi = 3.14159265358979323846;
 constexpr double kTypicalDamping = 0.05;
 // No cable's stiffness or damping is as far from the first guess as this factor.
 constexpr double kFarthest = 1e3;
-constexpr int kSwingShapes = 4;
-constexpr const char* kDampings[] = {"eta_EI", "eta_GJ", "eta_EA", "eta_GA"};
+// In both planes of a straight cable: four bending shapes each. What the fifth has of a pull at the
+// end is a thousandth of the first's.
+constexpr int kSwingShapes = 8;
 constexpr double kFirstClampedFree = 1.87510407;  // root of 1 + cos cosh = 0
 
 bool HasDisc(const Experiment& experiment) {
@@ -28,6 +29,12 @@ double BendingFrequency(const CableKeys& keys) {
   const double L = keys.length.value.value_or(0.2), EI = NumberOf("EI", keys).value_or(0.01);
   return std::pow(kFirstClampedFree / L, 2) *
          std::sqrt(EI / keys.mass_per_length.value.value_or(0.1));
+}
+
+double LargestOf(const std::vector<Eigen::Vector3d>& vectors) {
+  double largest = 0;
+  for (const Eigen::Vector3d& v : vectors) largest = std::max(largest, v.norm());
+  return largest;
 }
 
 double TorsionFrequency(const CableKeys& keys, const Experiment& experiment) {
@@ -51,10 +58,7 @@ Unknowns::Unknowns(const MeasurementSet& set, const UnknownOptions& options, Pro
   }
   const bool moves = std::any_of(set_.experiments.begin(), set_.experiments.end(),
                                  [](const Experiment& e) { return !e.quasi_static(); });
-  // What the set says to be unknown is looked for, listed or not.
-  for (const char* damping : kDampings)
-    if (moves && IsUnknown(damping, set_.cable) && !std::count(names.begin(), names.end(), damping))
-      names.push_back(damping);
+  if (moves) AddUnknownDampings(&names);
   const bool disc =
       std::any_of(set_.experiments.begin(), set_.experiments.end(),
                   [](const Experiment& e) { return HasDisc(e) && !e.quasi_static(); });
@@ -63,6 +67,7 @@ Unknowns::Unknowns(const MeasurementSet& set, const UnknownOptions& options, Pro
       !std::count(names.begin(), names.end(), kEndDamping))
     names.push_back(kEndDamping);
   for (const std::string& name : names) AddCable(name, problems);
+  for (const ParameterScatter& scatter : options.scatter) AddScatter(scatter);
 
   for (std::size_t e = 0; e < set_.experiments.size(); ++e) {
     const Experiment& experiment = set_.experiments[e];
@@ -103,6 +108,31 @@ Unknowns::Unknowns(const MeasurementSet& set, const UnknownOptions& options, Pro
     shapes_.emplace_back();
     if (set_.experiments[e].start.kind == StartCondition::Kind::kUnknown)
       AddSwing(static_cast<int>(e));
+  }
+}
+
+/// What the set says to be unknown is looked for, listed or not. Of a pair: as one where nothing
+/// tells the two apart.
+void Unknowns::AddUnknownDampings(std::vector<std::string>* names) const {
+  const auto listed = [&](const std::string& name) {
+    return std::count(names->begin(), names->end(), name) > 0;
+  };
+  const auto unknown = [&](const std::string& name) {
+    return IsUnknown(name, set_.cable) ||
+           std::any_of(set_.experiments.begin(), set_.experiments.end(),
+                       [&](const Experiment& e) { return IsUnknown(name, e.specimen); });
+  };
+  for (const std::string name : {"eta_GJ", "eta_EA"})
+    if (unknown(name) && !listed(name)) names->push_back(name);
+  for (const std::string name : {"eta_EI", "eta_GA"}) {
+    if (listed(name)) continue;
+    const std::string first = name + "1", second = name + "2";
+    if (unknown(first) && unknown(second) && !listed(first) && !listed(second)) {
+      names->push_back(name);
+      continue;
+    }
+    for (const std::string& one : {first, second})
+      if (unknown(one) && !listed(one)) names->push_back(one);
   }
 }
 
@@ -157,25 +187,48 @@ void Unknowns::AddCable(const std::string& name, Problems* problems) {
   all_.push_back(unknown);
 }
 
+void Unknowns::AddScatter(const ParameterScatter& scatter) {
+  const int of = Find(scatter.name);
+  if (of < 0 || !(scatter.sd > 0)) return;
+  for (std::size_t e = 0; e < set_.experiments.size(); ++e) {
+    if (!Concerns(of, static_cast<int>(e))) continue;
+    Unknown unknown;
+    unknown.kind = Unknown::Kind::kScatter;
+    unknown.name = set_.experiments[e].name + "/" + scatter.name + ".scatter";
+    unknown.unit = all_[of].unit;
+    unknown.scale = all_[of].scale;
+    unknown.prior_sd = scatter.sd;
+    unknown.experiment = static_cast<int>(e);
+    unknown.index = of;
+    all_.push_back(unknown);
+  }
+}
+
 void Unknowns::AddSwing(int e) {
   const Experiment& experiment = set_.experiments[e];
   Problems problems;
   const Specimen specimen = MakeSpecimen(e, StartValues(), &problems);
   if (!problems.empty()) return;
   shapes_[e] = FindSwingShapes(experiment, specimen, specimen.cable.elements, kSwingShapes);
-  for (std::size_t k = 0; k < shapes_[e].size(); ++k)
+  for (std::size_t k = 0; k < shapes_[e].size(); ++k) {
+    const SwingShape& shape = shapes_[e][k];
+    const double w = std::max(shape.w, 1.0);
+    // Shapes have a largest displacement of 1 m, or turn of 1 rad. Of what a pull starts, a shape
+    // has the less the faster it is.
+    const double largest = (LargestOf(shape.displacement) < 0.5 ? 1.0 : specimen.cable.length) *
+                           std::min(1.0, std::max(shapes_[e].front().w, 1.0) / w);
     for (const Unknown::Kind kind : {Unknown::Kind::kSwing, Unknown::Kind::kSpeed}) {
       Unknown swing;
       swing.kind = kind;
       swing.name = experiment.name + (kind == Unknown::Kind::kSwing ? "/swing" : "/speed") +
                    std::to_string(k + 1);
-      // Shapes have a largest displacement of 1 m (or turn of 1 rad).
-      swing.scale = 0.1 * specimen.cable.length *
-                    (kind == Unknown::Kind::kSpeed ? std::max(shapes_[e][k].w, 1.0) : 1.0);
+      swing.prior_sd = largest * (kind == Unknown::Kind::kSpeed ? w : 1.0);
+      swing.scale = 0.1 * swing.prior_sd;
       swing.experiment = e;
       swing.index = static_cast<int>(k);
       all_.push_back(swing);
     }
+  }
 }
 
 Eigen::VectorXd Unknowns::StartValues() const {
@@ -191,7 +244,7 @@ bool Unknowns::Concerns(int unknown, int e) const {
   if (u.name == "disc.inertia" || u.name == kEndDamping)
     return HasDisc(experiment) && !experiment.quasi_static();
   if (u.damping && experiment.quasi_static()) return false;
-  return !Gives(u.name, experiment.specimen);
+  return !Gives(u.name, experiment.specimen) || IsUnknown(u.name, experiment.specimen);
 }
 
 Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* problems) const {
@@ -204,6 +257,10 @@ Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* 
     if (!Concerns(i, e)) continue;
     if (u.kind == Unknown::Kind::kTilt) tilt[u.index] += values[i];
     if (u.kind == Unknown::Kind::kLength && keys.length.value) *keys.length.value += values[i];
+    if (u.kind == Unknown::Kind::kScatter) {
+      const Unknown& of = all_[u.index];
+      SetNumber(of.name, std::max(of.lower, values[u.index] + values[i]), &keys);
+    }
     if (u.kind != Unknown::Kind::kCable) continue;
     if (u.name == "disc.inertia")
       inertia = values[i];

@@ -18,6 +18,10 @@ class ChannelProbe {
   void Sample(const Rig& rig, Eigen::Ref<Eigen::VectorXd> values);
   /// Of the channel: 0, 1 or 2, the derivative of the sampled quantity that it shows.
   static int DerivativeOrder(Quantity quantity);
+  /// Whether the sampled quantity is an angle, known but for whole turns.
+  static bool Winds(Quantity quantity) {
+    return quantity == Quantity::kAngle || quantity == Quantity::kRate;
+  }
 
  private:
   double Angle(const Rig& rig, double s);

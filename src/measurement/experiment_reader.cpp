@@ -53,11 +53,9 @@ class ExperimentCheck {
   void CheckStart() {
     using Kind = StartCondition::Kind;
     const StartCondition& start = experiment_.start;
-    const bool turns = TurnsAboutAxis(experiment_.a) || TurnsAboutAxis(experiment_.b);
-    if (start.kind == Kind::kTwisted && !turns) {
+    if (start.kind == Kind::kTwisted && !TurnsAboutAxis(experiment_.b)) {
       Add(start.mark, "twisted",
-          "got this where both ends are held about the axis, expected a disc or an end that may "
-          "turn");
+          "got this where end b is held about the axis, expected a disc or an end b that may turn");
     }
     if (start.kind != Kind::kRest && experiment_.quasi_static()) {
       problems_->Add(start.mark,

@@ -122,9 +122,15 @@ void SimulateMotion(const Experiment& experiment, int samples, double dt, std::v
     if (!result.ok) continue;
     result.values.resize(samples, channels);
     for (int c = 0; c < channels; ++c) {
-      const int order = ChannelProbe::DerivativeOrder(experiment.channels[c].quantity);
-      for (int i = 0; i < samples; ++i)
-        result.values(i, c) = traces[k].Evaluate(c, times[i], order);
+      const Quantity quantity = experiment.channels[c].quantity;
+      if (ChannelProbe::Winds(quantity)) traces[k].Unwrap(c);
+      const int order = ChannelProbe::DerivativeOrder(quantity);
+      for (int i = 0; i < samples; ++i) {
+        // Before the start, the rig stands in its start's shape.
+        const bool stands = times[i] < start;
+        result.values(i, c) =
+            stands && order > 0 ? 0.0 : traces[k].Evaluate(c, std::max(times[i], start), order);
+      }
     }
   }
 }
@@ -138,6 +144,10 @@ void SimulateStatics(const Experiment& experiment, int samples, Run* run) {
     result.ok = run->rig->Equilibrate(static_cast<int>(experiment.record.t[i]), &result.message);
     if (!result.ok) break;
     probe.Sample(*run->rig, row);
+    if (i > 0)
+      for (Eigen::Index c = 0; c < row.size(); ++c)
+        if (ChannelProbe::Winds(experiment.channels[static_cast<std::size_t>(c)].quantity))
+          row[c] = Unwrapped(row[c], result.values(i - 1, c));
     result.values.row(i) = row.transpose();
   }
 }
@@ -219,7 +229,8 @@ std::vector<SwingShape> FindSwingShapes(const Experiment& experiment, const Spec
   std::string message;
   std::vector<SwingShape> shapes;
   if (!rig.Start(&message)) return shapes;
-  for (const rod::Mode& mode : rod::FindModes(std::as_const(rig).rod(), count, rig.load()))
+  const rod::Rod held = rig.WithSlidesHeld();
+  for (const rod::Mode& mode : rod::FindModes(held, count, rig.load()))
     shapes.push_back({mode.w, mode.zeta, mode.displacement, mode.rotation});
   return shapes;
 }

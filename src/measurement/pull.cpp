@@ -12,7 +12,6 @@ namespace {
 // the rod's stiffness to the spring's with each round.
 constexpr double kSpringRatio = 1e2;
 constexpr int kMaxRounds = 30;
-constexpr double kClosed = 1e-11;    // gap left, of the length
 constexpr double kMaxStride = 0.05;  // of the length, between two equilibria on the way
 
 struct Place {
@@ -72,7 +71,7 @@ Eigen::Vector3d PointOn(const rod::Rod& rod, double s) {
          u * u * v * t1;
 }
 
-bool PullTo(const PointAt& target, rod::Rod* rod) {
+bool PullTo(const PointAt& target, double closed, rod::Rod* rod) {
   const double length = rod->model().length;
   const double stretching = rod->model().section.C_F.z() / length;  // [N/m]
   Spring spring(PlaceOf(target.s, *rod), kSpringRatio * stretching);
@@ -88,7 +87,7 @@ bool PullTo(const PointAt& target, rod::Rod* rod) {
   for (int round = 0; round < kMaxRounds; ++round) {
     if (!rod->Equilibrate(&spring).converged) return false;
     const Eigen::Vector3d gap = target.position_W - PointOn(*rod, target.s);
-    if (gap.norm() < kClosed * length) return true;
+    if (gap.norm() < closed * length) return true;
     spring.TakeUp(*rod);
     // The spring holds the chord's point, which lies beside the curve's.
     spring.target = target.position_W + spring.PointOfChord(*rod) - PointOn(*rod, target.s);

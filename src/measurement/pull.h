@@ -8,9 +8,12 @@
 namespace cosserat_cable {
 
 /// Moves the rod to the equilibrium in which the point `target.s` is at its position, held there by
-/// whatever force that takes; from the present shape, in small moves.
+/// whatever force that takes; from the present shape, in small moves. `gap`: what may be missing,
+/// of the length.
 /// @return whether it was found
-bool PullTo(const PointAt& target, rod::Rod* rod);
+bool PullTo(const PointAt& target, double gap, rod::Rod* rod);
+/// As near as the solver gets.
+inline constexpr double kThere = 1e-11;
 
 /// The position [m] of the point at arc length `s`: the cubic through the nodes beside it along
 /// their sections' normals.

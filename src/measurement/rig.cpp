@@ -7,6 +7,7 @@
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/rod/initial_shape.h"
 #include "pull.h"
+#include "swung_shape.h"
 
 namespace cosserat_cable {
 namespace {
@@ -16,6 +17,9 @@ using Eigen::Vector3d;
 
 // A disc is turned to its start in parts of this [rad], so that no element turns too far at once.
 constexpr double kTwistStride = 0.5;
+
+// `near` picks one of several equilibria: to be about there, of the length, is enough.
+constexpr double kNear = 1e-3;
 
 /// What a clamp lets go.
 void Release(const EndCondition& end, rod::EndModel* model) {
@@ -33,13 +37,6 @@ void LetGo(rod::EndModel* model) {
   model->damping.z() = D_E;
 }
 
-/// Values given at evenly spread nodes, at others.
-Vector3d Resampled(const std::vector<Vector3d>& values, double fraction) {
-  const double x = fraction * static_cast<double>(values.size() - 1);
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), values.size() - 2);
-  return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
-}
-
 }  // namespace
 
 Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements)
@@ -53,7 +50,7 @@ Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements)
   }
 }
 
-rod::RodModel Rig::Model(Turn disc) const {
+rod::RodModel Rig::Model(Turn b) const {
   rod::RodModel model = MakeRodModel(specimen_.cable, experiment_.gravity_W);
   model.elements = elements_;
   Release(experiment_.a, &model.a);
@@ -73,11 +70,24 @@ rod::RodModel Rig::Model(Turn disc) const {
         model.b.translation = {true, true, false};
         model.b.rotation = {true, true, false};
       }
-      if (disc == Turn::kHeld) model.b.rotation[2] = true;
       break;
     }
   }
+  if (b == Turn::kHeld) model.b.rotation[2] = true;
   return model;
+}
+
+rod::Rod Rig::WithSlidesHeld() const {
+  rod::RodModel model = Model(Turn::kFree);
+  for (rod::EndModel* end : {&model.a, &model.b})
+    if (end->translation != std::array{false, false, false}) end->translation = {true, true, true};
+  rod::Rod held(model);
+  std::vector<Pose> nodes(elements_ + 1);
+  for (int i = 0; i <= elements_; ++i) nodes[i] = rod_->pose(i);
+  held.SetConfiguration(nodes);
+  // Where the ends are along what lets them slide; turned as the clamps are.
+  held.SetClamps({nodes.front().p, a_.q}, {nodes.back().p, b_.q});
+  return held;
 }
 
 Pose Rig::TiltedA(const Pose& X_WC) const {
@@ -133,7 +143,7 @@ bool Rig::Settle(rod::Rod* rod, std::string* message) {
   }
   if (!equilibrate()) return false;
   if (const auto& near = experiment_.start.near) {
-    if (!PullTo(*near, rod)) {
+    if (!PullTo(*near, kNear, rod)) {
       *message = "the cable cannot be brought near the position that start.near asks for";
       return false;
     }
@@ -150,11 +160,11 @@ bool Rig::Start(std::string* message) {
   b_ = statics ? path_b_.AtStep(0) : path_b_.At(t).X;
   if (!experiment_.load.samples.empty()) SetLoads(t);
 
-  // A disc is held about its axis until it is let go.
+  // End b is held about its axis until it is let go.
   const bool twisted = start.kind == StartCondition::Kind::kTwisted;
   rod::Rod settling(Model(twisted ? Turn::kHeld : Turn::kFree));
   if (!Settle(&settling, message)) return false;
-  if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, &settling)) {
+  if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, kThere, &settling)) {
     *message = "the cable cannot be pulled to the position that start.held asks for";
     return false;
   }
@@ -174,29 +184,26 @@ bool Rig::Start(std::string* message) {
 
   std::vector<Pose> nodes(elements_ + 1);
   for (int i = 0; i <= elements_; ++i) nodes[i] = settling.pose(i);
-  const Swing& swing = specimen_.swing;
-  const auto fraction = [&](int i) { return static_cast<double>(i) / elements_; };
-  if (!swing.displacement.empty())
-    for (int i = 0; i <= elements_; ++i) {
-      nodes[i].p += Resampled(swing.displacement, fraction(i));
-      nodes[i].q = (nodes[i].q * RotationExp(Resampled(swing.rotation, fraction(i)))).normalized();
-    }
+  const bool swings = !specimen_.swing.rotation.empty();
+  const rod::RodModel model = Model(Turn::kFree);
+  const Eigen::Matrix3d R_b = b_.q.toRotationMatrix();
+  Vector3d along;
+  for (int k = 0; k < 3; ++k) along[k] = model.b.translation[k];
+  const SwungShape swung(nodes, specimen_.swing, R_b * along.asDiagonal() * R_b.transpose());
+  if (swings) nodes = swung.Nodes();
   if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
-  rod_ = std::make_unique<rod::Rod>(Model(Turn::kFree));
+  rod_ = std::make_unique<rod::Rod>(model);
   rod_->SetConfiguration(nodes);
   rod_->SetClamps(a_, b_);
+  if (swings) {
+    std::vector<Vector3d> v, omega;
+    swung.Velocities(&v, &omega);
+    rod_->SetVelocities(v, omega);
+  }
   if (!statics && path_a_.moves()) {
     Motion motion = path_a_.At(t);
     motion.X = a_;
     rod_->AddRigidMotion(motion);
-  }
-  if (!swing.velocity.empty()) {
-    std::vector<Vector3d> v(elements_ + 1), omega(elements_ + 1);
-    for (int i = 0; i <= elements_; ++i) {
-      v[i] = Resampled(swing.velocity, fraction(i));
-      omega[i] = Resampled(swing.angular_velocity, fraction(i));
-    }
-    rod_->SetVelocities(v, omega);
   }
   return true;
 }

@@ -27,6 +27,10 @@ class Rig {
   /// One step of a quasi-static experiment: the equilibrium at its poses and loads.
   bool Equilibrate(int step, std::string* message);
 
+  /// The rod where it is, held along all axes where a slide holds it along some: its modes are
+  /// known.
+  rod::Rod WithSlidesHeld() const;
+
   const Pose& clamp_a() const { return a_; }
   const Pose& clamp_b() const { return b_; }
   /// Null where nothing but gravity loads the cable.
@@ -35,8 +39,8 @@ class Rig {
   const rod::Rod& rod() const { return *rod_; }
 
  private:
-  enum class Turn { kFree, kHeld };  // of a disc about its axis
-  rod::RodModel Model(Turn disc) const;
+  enum class Turn { kFree, kHeld };  // of end b about its axis
+  rod::RodModel Model(Turn b) const;
   Pose TiltedA(const Pose& X_WC) const;
   bool Settle(rod::Rod* rod, std::string* message);
   void SetLoads(double t);

@@ -38,6 +38,16 @@ void DerivativeWeights(double x, int count, int order, double* weights) {
 
 }  // namespace
 
+double Unwrapped(double angle, double near) {
+  constexpr double kTurn = 6.283185307179586;
+  return angle - kTurn * std::round((angle - near) / kTurn);
+}
+
+void Trace::Unwrap(int quantity) {
+  for (Eigen::Index step = 1; step < rows_.cols(); ++step)
+    rows_(quantity, step) = Unwrapped(rows_(quantity, step), rows_(quantity, step - 1));
+}
+
 double Trace::Evaluate(int quantity, double t, int order) const {
   const int steps = static_cast<int>(rows_.cols());
   const int count = std::min(kPoints, steps);

@@ -15,6 +15,7 @@ using namespace cosserat_cable::generator;
 
 constexpr char kUsage[] =
     "usage: rig_generator RIG --output DIR [--seed N] [--snr DB] [--lengths N] [--repeats N]\n"
+    "                        [--longest M] [--scatter X]\n"
     "Writes a measurement set with its truth (truth.json) into DIR.\n"
     "  RIG            random          a random cable: two ring-downs, torsion at 3 or 4 lengths\n"
     "                 wire            a soft wire, hanging, that swings a little\n"
@@ -24,7 +25,10 @@ constexpr char kUsage[] =
     "  --seed N       of all that is random (1)\n"
     "  --snr DB       signal to noise, rms (40)\n"
     "  --lengths N    of torsion-series (5)\n"
-    "  --repeats N    per length, of torsion-series and torsion-single (3)\n";
+    "  --repeats N    per length, of torsion-series and torsion-single (3)\n"
+    "  --longest M    of torsion-series [m] (0.5)\n"
+    "  --scatter X    of D_E, which is another one each time that the clamp is fastened: standard\n"
+    "                 deviation from record to record, relative, of torsion-* (0)\n";
 
 int wrong(const std::string& what) {
   std::fprintf(stderr, "rig_generator: %s\n%s", what.c_str(), kUsage);
@@ -42,7 +46,8 @@ bool parse(const std::string& text, double low, double high, double* value) {
 
 int main(int argc, char** argv) {
   std::map<std::string, std::string> options{
-      {"--seed", "1"}, {"--snr", "40"}, {"--lengths", "5"}, {"--repeats", "3"}, {"--output", ""}};
+      {"--seed", "1"},      {"--snr", "40"},    {"--lengths", "5"}, {"--repeats", "3"},
+      {"--longest", "0.5"}, {"--scatter", "0"}, {"--output", ""}};
   if (argc > 1 && std::string(argv[1]) == "--help") {
     std::fputs(kUsage, stdout);
     return 0;
@@ -60,11 +65,17 @@ int main(int argc, char** argv) {
     return wrong("--lengths: expected 2 to 50");
   if (!parse(options["--repeats"], 1.0, 50.0, &repeats))
     return wrong("--repeats: expected 1 to 50");
+  TorsionPlan plan;
+  if (!parse(options["--longest"], 0.15, 10.0, &plan.longest))
+    return wrong("--longest: expected 0.15 to 10 m");
+  if (!parse(options["--scatter"], 0.0, 1.0, &plan.scatter))
+    return wrong("--scatter: expected 0 to 1");
   if (options["--output"].empty()) return wrong("no --output given");
 
   const std::string rig = argv[1];
   const auto number = static_cast<std::uint64_t>(seed);
-  const int n_lengths = static_cast<int>(lengths), n_repeats = static_cast<int>(repeats);
+  plan.lengths = static_cast<int>(lengths);
+  plan.repeats = static_cast<int>(repeats);
   try {
     MeasurementSet set;
     if (rig == "random") {
@@ -72,9 +83,10 @@ int main(int argc, char** argv) {
     } else if (rig == "wire") {
       set = wireSet(number, snr);
     } else if (rig == "torsion-series") {
-      set = torsionSeries(number, snr, n_lengths, n_repeats);
+      set = torsionSeries(number, snr, plan);
     } else if (rig == "torsion-single") {
-      set = torsionSeries(number, snr, 1, n_repeats);
+      plan.lengths = 1;
+      set = torsionSeries(number, snr, plan);
     } else if (rig == "six") {
       set = sixRecords(number, snr);
     } else {

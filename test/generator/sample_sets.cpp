@@ -195,7 +195,8 @@ MeasurementSet wireSet(std::uint64_t seed, double snr) {
   return set;
 }
 
-MeasurementSet torsionSeries(std::uint64_t seed, double snr, int lengths, int repeats) {
+MeasurementSet torsionSeries(std::uint64_t seed, double snr, const TorsionPlan& plan) {
+  const int lengths = plan.lengths;
   constexpr double kRatio = 0.25;  // damping ratio at the shortest length
   constexpr double kPeriods = 5.0, kSamplesPerPeriod = 40.0;
   Random random(seed);
@@ -208,7 +209,7 @@ MeasurementSet torsionSeries(std::uint64_t seed, double snr, int lengths, int re
   c.EI = c.GJ / random.uniform(0.6, 1.6);
   c.eta_EI = 2e-4;
   c.eta_GJ = 2e-4 * random.uniform(0.8, 1.25);
-  const double shortest = lengths > 1 ? 0.1 : c.length, longest = 0.5;
+  const double shortest = lengths > 1 ? 0.1 : c.length, longest = plan.longest;
   Disc disc;
   disc.dashpot = random.uniform(1.0, 3.0) * c.eta_GJ / (lengths > 1 ? 0.25 : c.length);
   const double delta = (c.eta_GJ / shortest + disc.dashpot) / 2.0;  // times the inertia
@@ -220,12 +221,14 @@ MeasurementSet torsionSeries(std::uint64_t seed, double snr, int lengths, int re
   for (int i = 0; i < lengths; ++i) {
     const double length =
         lengths > 1 ? shortest + (longest - shortest) * i / (lengths - 1) : shortest;
-    for (int repeat = 0; repeat < repeats; ++repeat) {
+    for (int repeat = 0; repeat < plan.repeats; ++repeat) {
       const std::string name =
           "torsion_" + std::to_string(i + 1) + "_" + std::to_string(repeat + 1);
       // As slow as the discs of a pendulum whose fixation damps so much: a camera is enough.
       const double period = 2.0 * kPi * std::sqrt(disc.inertia * length / c.GJ);
-      experiments.push_back(torsion(name, c, length, disc, true, kPeriods * period, &random));
+      Disc fastened = disc;
+      fastened.dashpot *= std::max(0.0, 1.0 + plan.scatter * random.normal());
+      experiments.push_back(torsion(name, c, length, fastened, true, kPeriods * period, &random));
       experiments.back().times =
           jitteredTimes(kPeriods * period, kSamplesPerPeriod / period, kJitter, &random);
     }

@@ -12,8 +12,16 @@ MeasurementSet randomSet(std::uint64_t seed, double snr);
 /// A soft wire that hangs down and swings a little.
 MeasurementSet wireSet(std::uint64_t seed, double snr);
 
-/// Torsion at several lengths, `repeats` times each.
-MeasurementSet torsionSeries(std::uint64_t seed, double snr, int lengths, int repeats);
+/// Records of torsion: so many lengths, `repeats` of each.
+struct TorsionPlan {
+  int lengths = 5;
+  int repeats = 3;
+  double longest = 0.5;  ///< [m]
+  /// Of D_E from record to record: standard deviation in parts of its mean. A clamp that is
+  /// fastened anew is not the same clamp.
+  double scatter = 0.0;
+};
+MeasurementSet torsionSeries(std::uint64_t seed, double snr, const TorsionPlan& plan);
 
 /// Six records of three seconds: three ring-downs, three lengths of torsion.
 MeasurementSet sixRecords(std::uint64_t seed, double snr);

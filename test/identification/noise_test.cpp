@@ -33,7 +33,7 @@ TEST(NoiseTest, TheNoiseOfASmoothSignalIsSeenThroughIt) {
 }
 
 TEST(NoiseTest, WhiteNoiseIsNotTakenForColoured) {
-  // Akaike's criterion takes one order too many in some cases: little correlation then.
+  // Schwarz's criterion takes one order too many in few cases: little correlation then.
   for (std::uint32_t seed = 1; seed <= 20; ++seed)
     EXPECT_NEAR(ColourOf(2.0 * Correlated(0, seed)).correlation_samples, 1.0, 0.3) << seed;
 }

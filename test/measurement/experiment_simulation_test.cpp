@@ -14,6 +14,7 @@ using testing::CableSpecimen;
 using testing::ChannelAt;
 using testing::kPi;
 using testing::RingDown;
+using testing::SampleEvenly;
 using testing::Torsion;
 
 SimulationOptions Fine() {
@@ -154,6 +155,111 @@ TEST(ExperimentSimulationTest, QuasiStaticStepsGiveTheForceOfACantilever) {
   for (int step = 1; step < 5; ++step)
     EXPECT_NEAR(record.values(step, 0), stiffness * 0.001 * step,
                 kShearAndSize * stiffness * 0.001 * step);
+}
+
+/// Clamp b stands where the end of the straight cable along x is, turned about it by `turn` [rad].
+Pose TurnedEnd(const Experiment& experiment, double turn) {
+  const Eigen::Quaterniond about_axis(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));
+  return {Eigen::Vector3d(CableSpecimen().cable.length, 0, 0), experiment.a.pose.q * about_axis};
+}
+
+TEST(ExperimentSimulationTest, AnglesCountWholeTurns) {
+  Experiment experiment;
+  experiment.gravity_W.setZero();
+  experiment.a.pose.q = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY());
+  experiment.a.rotation_free = {false, false, true};  // follows end b without a moment
+  ClampMotion motion;
+  motion.quasi_static = experiment.record.quasi_static = true;
+  constexpr int kSteps = 20;
+  constexpr double kTurn = 0.5;  // [rad] per step: three turns in all
+  for (int step = 0; step < kSteps; ++step) {
+    motion.t.push_back(step);
+    motion.poses.push_back(TurnedEnd(experiment, kTurn * step));
+    experiment.record.t.push_back(step);
+  }
+  experiment.b.motion = motion;
+  experiment.channels = {ChannelAt(0, Quantity::kAngle),
+                         ChannelAt(CableSpecimen().cable.length, Quantity::kAngle)};
+  const SimulatedRecord record = SimulateExperiment(experiment, {CableSpecimen()}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  constexpr double kSolved = 1e-6;  // [rad], of equilibria
+  for (int step = 0; step < kSteps; ++step)
+    for (int c = 0; c < 2; ++c) EXPECT_NEAR(record.values(step, c), kTurn * step, kSolved);
+}
+
+TEST(ExperimentSimulationTest, AClampThatLetsTheEndTurnHoldsItTwistedUntilTheRelease) {
+  Experiment experiment;
+  experiment.gravity_W.setZero();
+  experiment.a.pose.q = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY());
+  experiment.b.pose = TurnedEnd(experiment, 0);
+  experiment.b.rotation_free = {false, false, true};
+  experiment.start.kind = StartCondition::Kind::kTwisted;
+  experiment.start.twisted = 1.5;
+  const double L = CableSpecimen().cable.length;
+  experiment.channels = {ChannelAt(L, Quantity::kAngle), ChannelAt(L / 2, Quantity::kAngle)};
+  SampleEvenly(0.01, 11, &experiment);
+  const SimulatedRecord record = SimulateExperiment(experiment, {CableSpecimen()}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  constexpr double kSolved = 1e-6;  // [rad]
+  EXPECT_NEAR(record.values(0, 0), 1.5, kSolved);
+  EXPECT_NEAR(record.values(0, 1), 0.75, kSolved);
+  EXPECT_LT(record.values(10, 0), 1.4);
+}
+
+TEST(ExperimentSimulationTest, ARigStandsStillBeforeItsMotionBegins) {
+  Experiment experiment = RingDown(0.001, 0.1, 101);
+  experiment.start = StartCondition();
+  ClampMotion motion;
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 0.05 + 0.01 * i;
+    motion.t.push_back(t);
+    motion.poses.push_back(
+        {Eigen::Vector3d(0, 0, 0.1 * std::pow(t - 0.05, 2)), experiment.a.pose.q});
+  }
+  experiment.a.motion = motion;
+  experiment.channels.push_back(ChannelAt(CableSpecimen().cable.length, Quantity::kVelocity, 2));
+  const SimulatedRecord record = SimulateExperiment(experiment, {CableSpecimen()}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  constexpr double kStill = 1e-12;
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_NEAR(record.values(i, 0), record.values(0, 0), kStill);
+    EXPECT_EQ(record.values(i, 1), 0.0);
+  }
+  EXPECT_GT(record.values.col(0).tail(20).cwiseAbs().maxCoeff(), 1e-5);
+}
+
+TEST(ExperimentSimulationTest, ALargeSwingAtTheStartKeepsTheCablesLength) {
+  Experiment experiment = RingDown(0.001, 0.002, 3);
+  experiment.start.kind = StartCondition::Kind::kUnknown;
+  experiment.channels.clear();
+  const double L = CableSpecimen().cable.length;
+  constexpr int kPoints = 25;
+  for (int i = 0; i <= kPoints; ++i)
+    for (int axis : {0, 1, 2})
+      experiment.channels.push_back(ChannelAt(L * i / kPoints, Quantity::kPosition, axis));
+  Specimen specimen = CableSpecimen();
+  const SwingShape shape =
+      FindSwingShapes(experiment, specimen, specimen.cable.elements, 1).front();
+  constexpr double kAmplitude = 0.1;  // [m] of 0.25: the end turns by half a radian
+  for (std::size_t i = 0; i < shape.displacement.size(); ++i) {
+    specimen.swing.displacement.push_back(kAmplitude * shape.displacement[i]);
+    specimen.swing.rotation.push_back(kAmplitude * shape.rotation[i]);
+    specimen.swing.velocity.push_back(Eigen::Vector3d::Zero());
+    specimen.swing.angular_velocity.push_back(Eigen::Vector3d::Zero());
+  }
+  const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  const auto point = [&](int i) -> Eigen::Vector3d {
+    return record.values.row(0).segment(3 * i, 3).transpose();
+  };
+  double length = 0;
+  for (int i = 0; i < kPoints; ++i) length += (point(i + 1) - point(i)).norm();
+  // Chords of 1 cm of a curve of radius 0.2 m and more, and the shear of the shape itself.
+  constexpr double kChords = 3e-4;
+  EXPECT_NEAR(length, L, kChords * L);
+  const double deflection = std::hypot(point(kPoints).y(), point(kPoints).z());
+  EXPECT_GT(deflection, 0.8 * kAmplitude);
+  EXPECT_LT(deflection, kAmplitude);
 }
 
 }  // namespace

@@ -141,8 +141,8 @@ TEST(SetMistakes, Starts) {
   EXPECT_EQ(Said("{disc: {inertia: 1.2e-4, mass: 0.15, guided: true}}",
                  "{pose: [0, 0, 1.2, 0, 0, 0, 1]}"),
             kYaml +
-                "24: experiments[1].start.twisted: got this where both ends are held about the "
-                "axis, expected a disc or an end that may turn\n");
+                "24: experiments[1].start.twisted: got this where end b is held about the axis, "
+                "expected a disc or an end b that may turn\n");
 }
 
 TEST(SetMistakes, Channels) {

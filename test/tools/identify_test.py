@@ -8,6 +8,8 @@ import subprocess
 import tempfile
 import unittest
 
+import yaml
+
 BUILD = os.environ['COSSERAT_CABLE_TOOLS_DIR']
 PROGRAMS = os.environ['COSSERAT_CABLE_PROGRAMS_DIR']
 REAL = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(
@@ -101,6 +103,42 @@ class Identify(unittest.TestCase):
         self.assertLess(abs(combination['value'] - expected), BEYOND_LUCK * combination['sd'])
         self.assertIn('plan for', out)
         self.assertEqual(len(answer['plan']['recommended']['lengths']), 2)
+
+    def test_what_differs_between_records_widens_the_intervals(self):
+        options = ('--seed', 1, '--lengths', 2, '--repeats', 3)
+        truth = self.generate('torsion-series', *options, '--scatter', 0.3)
+        answer, _ = self.identify('--no-report', '--no-direct', '--no-profiles')
+        scatter = answer['scatter']['D_E']
+        self.assertEqual(scatter['records'], 6)
+        # A standard deviation from four degrees of freedom: chi-square, 99.8 %.
+        self.assertTrue(0.15 < scatter['sd'] / (0.3 * truth['D_E']) < 2.2, scatter)
+        self.check(answer, truth, ('GJ', 'eta_GJ', 'D_E'))
+        self.assertTrue(any('differs between' in warning for warning in answer['warnings']))
+        low, high = answer['intervals']['eta_GJ']
+        self.generate('torsion-series', *options)
+        answer, _ = self.identify('--no-report', '--no-direct', '--no-profiles')
+        self.assertEqual(answer['scatter'], {})
+        calm_low, calm_high = answer['intervals']['eta_GJ']
+        self.assertGreater(high - low, 5 * (calm_high - calm_low))
+
+    def test_a_record_that_begins_in_full_swing(self):
+        truth = self.generate('six', '--seed', 3)
+        with open(self.path('set', 'measurement.yaml')) as file:
+            description = yaml.safe_load(file)
+        swing = description['experiments'][2]  # the largest
+        del swing['start']
+        swing['start'] = {'unknown': True}
+        description['experiments'] = [swing]
+        with open(self.path('set', 'measurement.yaml'), 'w') as file:
+            yaml.safe_dump(description, file)
+        with open(self.path('set', swing['record'])) as file:
+            header, *rows = file.readlines()
+        with open(self.path('set', swing['record']), 'w') as file:
+            file.writelines([header] + rows[len(rows) // 20:len(rows) // 2])
+        answer, _ = self.identify('--no-report', '--no-direct', '--no-profiles')
+        self.check(answer, truth, ('EI', 'eta_EI'))
+        for channel in answer['experiments'][0]['channels']:
+            self.assertLess(abs(channel['misfit'] - 1), NOISE, channel)
 
     def test_real_three_point_bending_is_not_explained_by_one_stiffness(self):
         if not os.path.exists(REAL):

@@ -21,6 +21,8 @@ struct EstimationOptions {
   /// Use what is left of records that are clipped, frozen or have gaps, and records shorter than a
   /// period; otherwise they count for nothing.
   bool use_damaged = false;
+  /// Whether parameters may differ from record to record where the records say so.
+  bool scatter = true;
   /// Values to begin from besides the set's own, by name (the direct evaluation's).
   std::vector<std::pair<std::string, double>> guesses;
   EstimationProgress progress;
@@ -70,7 +72,8 @@ struct Estimation {
   std::vector<Combination> combinations;
   Eigen::MatrixXd correlation;  ///< of all unknowns; zero rows where not determined
   std::vector<ExperimentFit> experiments;
-  CableKeys cable;  ///< the set's, with the determined parameters filled in
+  std::vector<ParameterScatter> scatter;  ///< between records; it is in the intervals
+  CableKeys cable;                        ///< the set's, with the determined parameters filled in
   std::vector<std::string> warnings;
   double discretisation = 0;  ///< what the steps did to the records, corrected; parts of range
   double seconds = 0;

@@ -40,7 +40,8 @@ struct Plan {
 };
 
 /// From the Fisher information of simulated records, with the parameters as they were estimated and
-/// the noise of the set's channels. What differs from specimen to specimen is not in it.
+/// the noise of the set's channels. What was found to differ between the set's records differs
+/// between the planned ones as much; other specimens are not in it.
 Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const PlanOptions& options,
               const EstimationProgress& progress);
 

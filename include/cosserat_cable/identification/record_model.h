@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -49,6 +50,13 @@ class RecordModel {
   /// @return the largest correction, in parts of its channel's range
   double Refine(const Eigen::VectorXd& values);
 
+  /// From now on the runs that the experiment's correction comes from are twice as fine.
+  /// @return false where they are as fine as is sensible already
+  bool Sharpen(int experiment);
+
+  /// Per experiment, what the corrected simulation may still be off by; as Refine found it.
+  const Records& error() const { return error_; }
+
   /// Per experiment, one for samples that count and zero for those that a sensor did not measure.
   const Records& usable() const { return usable_; }
   /// From now on the experiment's record counts for nothing.
@@ -61,8 +69,12 @@ class RecordModel {
   void Ignore(int unknown, int experiment) { ignored_.insert({unknown, experiment}); }
 
   Horizon WholeHorizon() const;
-  /// The same part of every record, but at least `samples` samples; quasi-static ones as a whole.
+  /// The same part of every record and of what moves in it, but at least `samples` samples, and two
+  /// periods where the start is unknown; quasi-static ones as a whole.
   Horizon PartialHorizon(double part, int samples) const;
+  /// So many periods of the slowest swing of records whose start is unknown, and of the others as
+  /// long; nothing where no start is unknown.
+  std::optional<Horizon> Beginning(double periods) const;
   const Unknowns& unknowns() const { return unknowns_; }
 
  private:
@@ -72,9 +84,14 @@ class RecordModel {
 
   const Unknowns& unknowns_;
   std::vector<SimulationOptions> options_;  // by experiment
+  std::vector<double> period_;              // by experiment with an unknown start [s], or 0
+  std::vector<std::vector<double>>
+      moved_;                   // by experiment and sample, the part of its motion so far
+  std::vector<int> sharpness_;  // by experiment, of the runs behind the correction
   std::set<std::pair<int, int>> ignored_;
   Records usable_;
   Records correction_;  // what is added to the simulated records
+  Records error_;
 };
 
 }  // namespace cosserat_cable

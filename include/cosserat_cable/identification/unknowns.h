@@ -20,7 +20,8 @@ struct Unknown {
     kSwing,   ///< amplitude of a shape at an unknown start
     kSpeed,   ///< the same, of its velocity
     kTilt,    ///< of clamp a about its a1 or a2 [rad]
-    kLength   ///< what a specimen is longer than the set says [m]
+    kLength,  ///< what a specimen is longer than the set says [m]
+    kScatter  ///< by what a parameter of the cable differs in one record from its mean
   };
   Kind kind = Kind::kCable;
   std::string name;  ///< "EI"; "ringdown/tip_x.offset"
@@ -32,8 +33,17 @@ struct Unknown {
   bool damping = false;     ///< may be zero
   double prior_sd = 0;      ///< known beforehand to be `start` within this; 0: nothing is known
   int experiment = -1;      ///< whose, where it is not the cable's
-  int index = 0;            ///< channel, shape or axis
+  int index = 0;            ///< channel, shape, axis, or which unknown it is the scatter of
   bool start_known = true;  ///< false: the set says null, and `start` is a guess of its size
+};
+
+/// A parameter of the cable that differs from record to record: a clamp that was fastened anew,
+/// another specimen.
+struct ParameterScatter {
+  std::string name;
+  double sd = 0;    ///< standard deviation between records [the parameter's unit]
+  int records = 0;  ///< that show it
+  int freedom = 0;  ///< of what the sd was estimated from
 };
 
 /// What may be asked of a fit besides the set's own `uncertain`.
@@ -41,6 +51,7 @@ struct UnknownOptions {
   double clamp_sd = 0;      ///< clamp a points elsewhere, by about this angle [rad]; 0: it does not
   double length_sd = 0;     ///< free lengths are wrong by about this [m]; 0: they are not
   bool end_damping = true;  ///< the dashpot D_E at a disc is one of the unknowns
+  std::vector<ParameterScatter> scatter;  ///< what differs from record to record
 };
 
 /// The unknowns of a set, and the specimens that go with values for them.
@@ -67,6 +78,8 @@ class Unknowns {
   int Find(const std::string& name) const;
 
  private:
+  void AddUnknownDampings(std::vector<std::string>* names) const;
+  void AddScatter(const ParameterScatter& scatter);
   void AddCable(const std::string& name, Problems* problems);
   void AddSwing(int experiment);
 

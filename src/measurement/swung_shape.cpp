@@ -1,0 +1,82 @@
+#include "swung_shape.h"
+
+#include <algorithm>
+
+#include "cosserat_cable/math/rotation.h"
+
+namespace cosserat_cable {
+namespace {
+
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+// Turn [rad] over which velocities are differences: their error is of its square.
+constexpr double kDifference = 1e-4;
+
+/// Values given at evenly spread nodes, at others.
+Vector3d Resampled(const std::vector<Vector3d>& values, double fraction) {
+  const double x = fraction * static_cast<double>(values.size() - 1);
+  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), values.size() - 2);
+  return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
+}
+
+/// The frame in the middle of an element.
+Quaterniond Middle(const Quaterniond& left, const Vector3d& turn) {
+  return left * RotationExp(0.5 * turn);
+}
+
+}  // namespace
+
+SwungShape::SwungShape(const std::vector<Pose>& rest, const Swing& swing,
+                       const Eigen::Matrix3d& held)
+    : rest_(rest), swing_(swing), held_(held) {}
+
+std::vector<Pose> SwungShape::At(double time) const {
+  const std::size_t last = rest_.size() - 1;
+  const auto fraction = [&](std::size_t i) {
+    return static_cast<double>(i) / static_cast<double>(last);
+  };
+  const auto rotation = [&](std::size_t i) -> Vector3d {
+    return Resampled(swing_.rotation, fraction(i)) +
+           time * Resampled(swing_.angular_velocity, fraction(i));
+  };
+  const auto displacement = [&](std::size_t i) -> Vector3d {
+    return Resampled(swing_.displacement, fraction(i)) +
+           time * Resampled(swing_.velocity, fraction(i));
+  };
+  std::vector<Pose> nodes(rest_.size());
+  nodes[0] = {rest_[0].p + displacement(0), rest_[0].q * RotationExp(rotation(0))};
+  for (std::size_t i = 0; i < last; ++i) {
+    const Quaterniond turn = rest_[i].q.conjugate() * rest_[i + 1].q;
+    const Vector3d rest_turn = RotationLog(turn);
+    const Vector3d swung_turn = rest_turn + rotation(i + 1) - turn.conjugate() * rotation(i);
+    const Vector3d strain =
+        Middle(rest_[i].q, rest_turn).conjugate() * (rest_[i + 1].p - rest_[i].p);
+    nodes[i + 1].p = nodes[i].p + Middle(nodes[i].q, swung_turn) * strain;
+    nodes[i + 1].q = (nodes[i].q * RotationExp(swung_turn)).normalized();
+  }
+  if (held_.isZero()) return nodes;
+  const Vector3d gap = held_ * (rest_[last].p + displacement(last) - nodes[last].p);
+  const Vector3d twist =
+      RotationLog(nodes[last].q.conjugate() * rest_[last].q * RotationExp(rotation(last)));
+  for (std::size_t i = 1; i <= last; ++i) {
+    nodes[i].p += fraction(i) * gap;
+    nodes[i].q = (nodes[i].q * RotationExp(fraction(i) * twist)).normalized();
+  }
+  return nodes;
+}
+
+void SwungShape::Velocities(std::vector<Vector3d>* v, std::vector<Vector3d>* omega) const {
+  double fastest = 0;
+  for (const Vector3d& rate : swing_.angular_velocity) fastest = std::max(fastest, rate.norm());
+  const double h = fastest > 0 ? kDifference / fastest : 1.0;
+  const std::vector<Pose> before = At(-h), after = At(h);
+  v->resize(rest_.size());
+  omega->resize(rest_.size());
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    (*v)[i] = (after[i].p - before[i].p) / (2 * h);
+    (*omega)[i] = RotationLog(before[i].q.conjugate() * after[i].q) / (2 * h);
+  }
+}
+
+}  // namespace cosserat_cable
