@@ -25,12 +25,14 @@ struct CableFleet::Impl {
 CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
     : impl_(std::make_unique<Impl>()) {
   impl_->cables = cables;
-  // What the rods of a batch have in common: the number of elements, and which ends are rigid.
-  std::map<std::tuple<int, bool, bool>, std::vector<std::size_t>> alike;
+  // What the rods of a batch have in common: the number of elements, and how ends are held.
+  std::map<std::tuple<int, bool, bool, bool, bool>, std::vector<std::size_t>> alike;
   const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
   for (std::size_t i = 0; i < cables.size(); ++i) {
     const rod::RodModel& rod = cables[i]->impl_->rod.model();
-    alike[{rod.elements, rod.a.clamped(), rod.b.clamped()}].push_back(i);
+    alike[{rod.elements, rod.a.clamped(), rod.b.clamped(), rod.a.partly_held(),
+           rod.b.partly_held()}]
+        .push_back(i);
   }
   for (const auto& [kind, members] : alike)
     for (std::size_t first = 0; first < members.size(); first += together) {

@@ -22,7 +22,7 @@ EndPart::EndPart(const EndModel& model)
       holds_(Any(model.translation) || Any(model.rotation)),
       holds_rotation_(Any(model.rotation)),
       sprung_(model.stiffness.any() || model.damping.any()),
-      active_(!rigid_ && bears()) {
+      active_(model.partly_held()) {
   // What is held needs no spring.
   for (int k = 0; k < 3; ++k)
     if (model.rotation[k]) model_.stiffness[k] = model_.damping[k] = 0;

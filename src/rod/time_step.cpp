@@ -67,6 +67,9 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       if (running[r]) ImposeEnds(c, *rods[r].ends, r, chain);
   };
 
+  // What holds an end in part is so stiff that its rounding in float would hold the rest as well.
+  // The ends of all rods are alike.
+  const bool partly_held = rods[0].ends->active();
   const auto keep_running = [&] {
     T keep(1.0);
     for (int r = 0; r < count; ++r)
@@ -86,7 +89,7 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       for (int r = 0; r < count; ++r) definite[r] = IsPositive(pivot, r, halves);
       CorrectBackward(c, keep_running(), *solver, chain, &size);
     };
-    if (iteration < kExactFrom)
+    if (iteration < kExactFrom && !partly_held)
       solve(&chain->quick, Quick<T>(1.0));
     else
       solve(&chain->exact, T(1.0));

@@ -40,6 +40,12 @@ struct EndModel {
     return translation[0] && translation[1] && translation[2] && rotation[0] && rotation[1] &&
            rotation[2];
   }
+  /// Neither clamped nor free: the end's node is an unknown on which the clamp bears.
+  bool partly_held() const {
+    const bool holds = translation[0] || translation[1] || translation[2] || rotation[0] ||
+                       rotation[1] || rotation[2];
+    return !clamped() && (holds || stiffness.any() || damping.any());
+  }
 };
 
 }  // namespace cosserat_cable::rod

@@ -17,7 +17,7 @@ struct RodDrive {
 };
 
 /// Steps up to `kMaxRods` rods, up to four of them at the cost of four, with the same number of
-/// elements and the same ends held. A rod's result does not depend, to the last bit, on which
+/// elements; all are clamped, partly held or free at the same ends. A rod's result does not depend, to the last bit, on which
 /// others are stepped with it; it may differ by rounding from Rod::Step's.
 class RodBatch {
  public:
