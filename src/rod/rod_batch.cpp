@@ -40,15 +40,11 @@ int RodBatch::PreferredRods() {
 RodBatch::RodBatch(const std::vector<Rod*>& rods) {
   if (rods.empty() || rods.size() > kMaxRods)
     throw std::invalid_argument("a batch has one to eight rods");
-  const auto alike = [](const EndModel& one, const EndModel& other) {
-    return one.clamped() == other.clamped() && one.partly_held() == other.partly_held();
-  };
   const RodModel& first = rods.front()->model();
   for (const Rod* rod : rods)
-    if (rod->elements() != first.elements || !alike(rod->model().a, first.a) ||
-        !alike(rod->model().b, first.b))
-      throw std::invalid_argument(
-          "rods of a batch have equal elements, and ends that are clamped, partly held or free");
+    if (rod->elements() != first.elements || rod->model().a.clamped() != first.a.clamped() ||
+        rod->model().b.clamped() != first.b.clamped())
+      throw std::invalid_argument("rods of a batch have equal elements and clamped ends");
   for (const Rod* rod : rods)
     if (!rod->model().joints.empty())
       throw std::invalid_argument("a rod with joints is stepped by itself");

@@ -68,8 +68,8 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
   };
 
   // What holds an end in part is so stiff that its rounding in float would hold the rest as well.
-  // The ends of all rods are alike.
-  const bool partly_held = rods[0].ends->active();
+  const bool partly_held =
+      std::any_of(rods, rods + count, [](const StepOfRod& rod) { return rod.ends->active(); });
   const auto keep_running = [&] {
     T keep(1.0);
     for (int r = 0; r < count; ++r)

@@ -17,8 +17,9 @@ struct RodDrive {
 };
 
 /// Steps up to `kMaxRods` rods, up to four of them at the cost of four, with the same number of
-/// elements; all are clamped, partly held or free at the same ends. A rod's result does not depend, to the last bit, on which
-/// others are stepped with it; it may differ by rounding from Rod::Step's.
+/// elements and the same ends clamped. A rod's result does not depend, to the last bit, on which
+/// others are stepped with it, unless some have ends that are held in part (EndModel) and it has
+/// not: then by rounding, as it may differ from Rod::Step's.
 class RodBatch {
  public:
   static constexpr int kMaxRods = 8;
