@@ -127,7 +127,7 @@ bool CommitElements(const T& taken, StepChain<T>* chain) {
   const bool all = AllTaken(taken);
   T largest(0.0), dissipation(0.0);
   for (int e = 0; e < elements; ++e) {
-    const ElementState<T> state = StateOf<kJointed>(w, w.nodes, e, &largest);
+    const ElementState<T> state = StateOf<kJointed>(w, w.nodes, e, law.arc, &largest);
     if (w.branched) w.strains[e] = StrainOf(state);
     const T rate_x = shear.per_length * state.u_rate.x, rate_y = shear.per_length * state.u_rate.y;
     const ChainShear<T>& before = w.shear[e];
@@ -176,9 +176,10 @@ void CommitNodes(const StepCoefficients& c, const T& taken, StepChain<T>* chain)
 template <bool kJointed, class T>
 bool EvaluateStrainsOf(StepChain<T>* chain) {
   StepChain<T>& w = *chain;
+  const T arc = ArcFactor(w.law.h, w.law.gamma0);
   T largest(0.0);
   for (int e = 0; e < w.layout.chain_elements; ++e)
-    w.strains[e] = StrainOf(StateOf<kJointed>(w, w.state, e, &largest));
+    w.strains[e] = StrainOf(StateOf<kJointed>(w, w.state, e, arc, &largest));
   if (w.careful || !AnyAtLeast(largest, kArcTangentSeriesBelow)) return true;
   w.careful = true;
   return false;

@@ -52,7 +52,8 @@ struct ElementEnds<true, T> {
 
 /// Strains of an element between its nodes in `nodes`: the iterate's, or the state's.
 template <bool kJointed, class T, class Nodes>
-ElementState<T> StateOf(const StepChain<T>& w, const Nodes& nodes, int e, T* largest) {
+ElementState<T> StateOf(const StepChain<T>& w, const Nodes& nodes, int e, const T& arc,
+                        T* largest) {
   ElementState<T> state;
   const ElementEnds<kJointed, T> ends(w, e, nodes[e].at, nodes[e + 1].at);
   const Node<T>&a = ends.a, &b = ends.b;
@@ -64,7 +65,7 @@ ElementState<T> StateOf(const StepChain<T>& w, const Nodes& nodes, int e, T* lar
     CorrectArcTangent(turn.x2, &corrected);
     series = corrected;
   }
-  EvaluateStrain(a, b, turn, series, &state);
+  EvaluateStrain(a, b, turn, series, arc, &state);
   return state;
 }
 
@@ -89,6 +90,8 @@ void EvaluateStress(const StepChain<T>& w, const ScaledLaw<T>& law, int e, Eleme
   if (!w.branched) return;
   state->n += w.branch_offsets[e].F;
   state->m += w.branch_offsets[e].M;
+  state->m_theta +=
+      w.branch_offsets[e].M + MomentOfArc(w.branch_offsets[e].F, state->theta, law.arc);
 }
 
 /// The attitude after the turns of the step, where a node has turned too far for the series.

@@ -92,14 +92,14 @@ class Evaluation {
   Evaluation(const StepCoefficients& c, const StepChain<T>& chain)
       : w_(chain),
         law_(chain.law),
-        moduli_(Converted<F>(chain.law.h),
+        moduli_(Converted<F>(chain.law.h), Converted<F>(chain.law.gamma0),
                 Converted<F>(chain.law.C_F + c.velocity_by_increment * chain.law.V_F),
                 Converted<F>(chain.law.C_M + c.velocity_by_increment * chain.law.V_M)) {
     for (T& x : on_next_.v) x = T(0.0);
   }
 
   void Element(int e, bool with_tangent, Evaluated<F>* out) {
-    ElementState<T> state = StateOf<kJointed>(w_, w_.nodes, e, &largest_);
+    ElementState<T> state = StateOf<kJointed>(w_, w_.nodes, e, law_.arc, &largest_);
     EvaluateStress(w_, law_, e, &state);
     const ElementForces<T> forces = ForcesOf<kJointed>(w_, e, state);
     Vec6<T> own = OwnForces(w_, e);

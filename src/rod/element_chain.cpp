@@ -159,7 +159,7 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
       return Gather(at(from, 0), at(from, 1), at(from, 2), at(from, 3));
     };
     ElementState<Lanes>& state = states_[first / kLanes];
-    EvaluateStrain(gather(lefts), gather(nodes + 1), &state);
+    EvaluateStrain(gather(lefts), gather(nodes + 1), wide.arc, &state);
     EvaluateStress(wide, offsets_[first / kLanes], &state);
     const ElementForces<Lanes> forces = EvaluateForces(state);
     const int lanes = std::min(kLanes, elements_ - first);
@@ -173,9 +173,9 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
 
 template <>
 COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
-    const double& h, const Vec3<double>& C_F, const Vec3<double>& C_M,
+    const double& h, const Vec3<double>& gamma0, const Vec3<double>& C_F, const Vec3<double>& C_M,
     BlockTridiagonal<double>* system) const {
-  const TangentLaw<Lanes> law(h, Broadcast(C_F), Broadcast(C_M));
+  const TangentLaw<Lanes> law(h, Broadcast(gamma0), Broadcast(C_F), Broadcast(C_M));
   ClearFront(system);
   for (int first = 0; first < elements_; first += kLanes) {
     const ElementTangent<Lanes> k = EvaluateTangent(states_[first / kLanes], law);

@@ -35,7 +35,7 @@ class ElementChain {
   void Evaluate(const Node<T>* nodes, const ElementLaw<T>& law, Vec6<T>* rhs);
 
   /// Sets `system` to the tangent at what Evaluate saw, for the moduli C + V d(rate)/d(strain).
-  void AssembleTangent(const T& h, const Vec3<T>& C_F, const Vec3<T>& C_M,
+  void AssembleTangent(const T& h, const Vec3<T>& gamma0, const Vec3<T>& C_F, const Vec3<T>& C_M,
                        BlockTridiagonal<T>* system) const;
 
   /// Of the rod in `lane`.

@@ -2,7 +2,7 @@
 // the elements before and after it see different frames there.
 #pragma once
 
-#include "element.h"
+#include "element_tangent.h"
 
 namespace cosserat_cable::rod {
 

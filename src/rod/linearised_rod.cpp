@@ -46,11 +46,11 @@ Eigen::Matrix<double, kRows, 12> Derivatives(const Node<double>& a, const Node<d
 
 /// What an element exerts under the force and moment of `stress`, wherever its nodes are.
 Vector12 ElementResidual(const Quat<double>& joint, const Node<double>& a, const Node<double>& b,
-                         const ElementStress& stress) {
+                         double arc, const ElementStress& stress) {
   ElementState<double> state;
-  EvaluateStrain<double>(SeenThrough(joint, a), b, &state);
+  EvaluateStrain<double>(SeenThrough(joint, a), b, arc, &state);
   state.n = stress.n;
-  state.m = stress.m;
+  state.m_theta = stress.m + MomentOfArc(stress.n, state.theta, arc);
   ElementForces<double> forces = EvaluateForces(state);
   TurnBack({joint, {1, 0, 0, 0}}, &forces);
   Vector12 residual;
@@ -61,9 +61,9 @@ Vector12 ElementResidual(const Quat<double>& joint, const Node<double>& a, const
 
 /// Strains of an element, times its length.
 Eigen::Matrix<double, 6, 1> ElementStrains(const Quat<double>& joint, const Node<double>& a,
-                                           const Node<double>& b) {
+                                           const Node<double>& b, double arc) {
   ElementState<double> state;
-  EvaluateStrain<double>(SeenThrough(joint, a), b, &state);
+  EvaluateStrain<double>(SeenThrough(joint, a), b, arc, &state);
   Eigen::Matrix<double, 6, 1> strains;
   strains << state.u.x, state.u.y, state.u.z, state.theta.x, state.theta.y, state.theta.z;
   return strains;
@@ -108,20 +108,22 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   EvaluateForces(w);
   if (load) AddLoad(*load, 0, false, 0.0, w);
   const Vec6<double> missing[] = {w->rhs.front(), w->rhs.back()};
-  const double h = w->law.h;
+  const double h = w->law.h, arc = ArcFactor(h, w->law.gamma0);
   material.assign(kComponents, SymmetricBands(w->count));
   for (int e = 0; e + 1 < w->count; ++e) {
     const Node<double>&a = w->trial[e], &b = w->trial[e + 1];
     const Quat<double> joint = joints.empty() ? Quat<double>{1, 0, 0, 0} : joints[e];
     // How the forces turn with the nodes, at constant stress.
     const ElementStress stress = w->chain.Stress(e, 0);
-    const Eigen::Matrix<double, 12, 12> turning = Derivatives<12>(
-        a, b, h,
-        [&](const auto& one, const auto& two) { return ElementResidual(joint, one, two, stress); });
+    const Eigen::Matrix<double, 12, 12> turning =
+        Derivatives<12>(a, b, h, [&](const auto& one, const auto& two) {
+          return ElementResidual(joint, one, two, arc, stress);
+        });
     // The skew part adds up to the moments that a node lacks to balance: zero.
     AddElement(e, 0.5 * (turning + turning.transpose()), &geometric);
     const Eigen::Matrix<double, 6, 12> strains = Derivatives<6>(
-        a, b, h, [&](const auto& one, const auto& two) { return ElementStrains(joint, one, two); });
+        a, b, h,
+        [&](const auto& one, const auto& two) { return ElementStrains(joint, one, two, arc); });
     for (int i = 0; i < kComponents; ++i)
       AddElement(e, moduli[i].C / h * strains.row(i).transpose() * strains.row(i), &material[i]);
   }

@@ -1,10 +1,9 @@
-#include "../../src/rod/element.h"
-
 #include <gtest/gtest.h>
 
 #include <functional>
 #include <random>
 
+#include "../../src/rod/element_tangent.h"
 #include "rod/validation.h"
 
 namespace cosserat_cable::rod {
@@ -21,9 +20,11 @@ class ElementTest : public ::testing::Test {
   /// Two nodes turned against each other by about `turn` rad, with strains of a few per mille.
   void MakeNodes(double turn) {
     a_.q = Exp(RandomVector(1.0));
-    b_.q = Normalized(a_.q * Exp(RandomVector(turn)));
+    const V theta = RandomVector(turn);
+    b_.q = Normalized(a_.q * Exp(theta));
     a_.r = RandomVector(0.1);
-    b_.r = a_.r + ToMatrix(a_.q) * (V{0, 0, kH} + RandomVector(2e-3 * kH));
+    const Mat3<double> middle = ToMatrix(a_.q * Exp(0.5 * theta));
+    b_.r = a_.r + middle * (V{0, 0, kH} + RandomVector(2e-3 * kH));
     a_.v = RandomVector(1.0);
     b_.v = a_.v + RandomVector(0.05);
     a_.omega = RandomVector(3.0);
@@ -36,7 +37,7 @@ class ElementTest : public ::testing::Test {
 
   Strained Evaluate(const Node<double>& a, const Node<double>& b) const {
     Strained e;
-    EvaluateStrain<double>(a, b, &e);
+    EvaluateStrain<double>(a, b, ArcFactor(kH, law_.gamma0), &e);
     EvaluateStress<double>(ScaledLaw<double>(law_), {}, &e);
     e.gamma = (1 / kH) * e.u;
     e.gamma_dot = (1 / kH) * e.u_rate;
@@ -180,7 +181,7 @@ TEST_F(ElementTest, TangentIsTheDerivativeOfTheForcesUpToTheSkewPart) {
   for (double turn : {1e-3, 0.03, 0.1, 0.3}) {
     MakeNodes(turn);
     const double tolerance = 1e-6 + 0.2 * turn * turn * turn + 8e-3 * turn;
-    const auto k = EvaluateTangent<double>(Evaluate(a_, b_), {kH, law_.C_F, law_.C_M});
+    const auto k = EvaluateTangent<double>(Evaluate(a_, b_), {kH, law_.gamma0, law_.C_F, law_.C_M});
     double d[12][12];
     for (int j = 0; j < 12; ++j) {
       const double step = j % 6 < 3 ? 1e-6 * kH : 1e-6;

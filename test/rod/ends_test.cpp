@@ -1,6 +1,8 @@
 // Ends that are pinned, free, sprung or held in part; prescribed loads; lumped bodies.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/ringing.h"
 #include "rod/rod_cases.h"
@@ -107,24 +109,30 @@ TEST(EndsTest, PartlyHeldEndsKeepWhatTheyHoldWhileTheClampMoves) {
 }
 
 TEST(EndsTest, AClampThatGivesWayMayMoveAsFastAsARigidOne) {
-  // It starts at 1 m/s from rest, a tenth of an element in a step: Newton's iteration needs no more
-  // than with a rigid clamp, which takes three or four for the first steps.
-  constexpr int kIterations = 4;
-  for (const bool torsion_rigid : {false, true}) {
+  // It starts at 1 m/s from rest, a tenth of an element in a step: Newton's worst step needs no
+  // more iterations than with a rigid clamp.
+  const auto most_iterations = [](const EndModel& end) {
     RodModel model = RoundCable(0.4, 0.01, 0.12, 0.035, 0.028, 1e-4, 5e-5, 40);
-    model.b = EndModel::Sprung({1, 1, 1}, Vector3d::Zero());
-    model.b.rotation[2] = torsion_rigid;
+    model.b = end;
     Rod rod(model);
     const Pose a = Facing({0, 0, 0}, -Vector3d::UnitZ());
     Pose b = Facing({0, 0.2, 0}, Vector3d::UnitZ());
     rod.SetConfiguration(BowedShape(a, b, model.length, 40, model.gravity));
-    ASSERT_TRUE(rod.Equilibrate().converged);
+    EXPECT_TRUE(rod.Equilibrate().converged);
+    int most = 0;
     for (int k = 1; k <= 100; ++k) {
       b.p.z() = 0.01 * std::sin(0.1 * k);
       const SolveReport report = rod.Step(1e-3, a, b);
-      ASSERT_TRUE(report.converged) << k;
-      EXPECT_LE(report.iterations, kIterations) << k;
+      EXPECT_TRUE(report.converged) << k;
+      most = std::max(most, report.iterations);
     }
+    return most;
+  };
+  const int rigid = most_iterations({});
+  for (const bool torsion_rigid : {false, true}) {
+    EndModel end = EndModel::Sprung({1, 1, 1}, Vector3d::Zero());
+    end.rotation[2] = torsion_rigid;
+    EXPECT_LE(most_iterations(end), rigid) << torsion_rigid;
   }
 }
 
