@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "cosserat_cable/rod/modes.h"
@@ -59,6 +60,11 @@ double Resonance(int elements, double dt) {
   return Vertex(peak[-1], peak[0], peak[1]);
 }
 
+/// What a quantity of the chain is called in the table.
+std::string OfElements(const std::string& quantity, int elements) {
+  return elements == 40 ? quantity : quantity + ", " + std::to_string(elements) + " elements";
+}
+
 // Successive differences fall by 4 where the order is 2; where another order shows beside it, a
 // little less.
 constexpr double kLeastRatio = 3.5;
@@ -74,8 +80,10 @@ TEST(ConvergenceTest, ResonanceIsOfSecondOrderInTheElementLength) {
               kLeastRatio);
   const double limit = value[3] + (value[3] - value[2]) / 3;
   for (int k : {0, 2})
-    Validate({"Numerics", "resonant amplitude of P1, eta x 0.1 [m], against its limit in N",
-              "Richardson, N = 40, 80", limit, value[k], kWithin * limit, elements[k], kDt});
+    Validate(
+        {"Numerics",
+         OfElements("resonant amplitude of P1, eta x 0.1 [m], against its limit in N", elements[k]),
+         "Richardson, N = 40, 80", limit, value[k], kWithin * limit, elements[k], kDt});
 }
 
 TEST(ConvergenceTest, RestShapeAndSwayFrequencyAreOfSecondOrderUpToFineMeshes) {
@@ -89,14 +97,14 @@ TEST(ConvergenceTest, RestShapeAndSwayFrequencyAreOfSecondOrderUpToFineMeshes) {
     for (const Mode& mode : FindModes(rod, 2))
       if (mode.kind == ModeKind::kInPlane) frequency[k] = mode.w / (2 * M_PI);
   }
-  const auto check = [&](const double* value, const char* what, double within) {
+  const auto check = [&](const double* value, const std::string& what, double within) {
     for (int k = 0; k < 3; ++k)
       EXPECT_GT(std::abs(value[k] - value[k + 1]) / std::abs(value[k + 1] - value[k + 2]),
                 kLeastRatio)
           << what << ' ' << elements[k];
     const double limit = value[4] + (value[4] - value[3]) / 3;
     for (int k : {0, 2})
-      Validate({"Numerics", std::string(what) + ", against its own limit",
+      Validate({"Numerics", OfElements(what + ", against its own limit", elements[k]),
                 "Richardson, N = 80, 160", limit, value[k], within * limit, elements[k]});
   };
   check(apex, "apex of arch P1 at rest [m]", kApexWithin);
