@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cosserat_cable/math/small_eigen.h"
+#include "cosserat_cable/rod/element_curve.h"
 
 namespace cosserat_cable {
 namespace {
@@ -61,14 +62,7 @@ class Spring : public rod::Load {
 
 Eigen::Vector3d PointOn(const rod::Rod& rod, double s) {
   const auto [e, u] = PlaceOf(s, rod);
-  const Pose left = rod.pose(e), right = rod.pose(e + 1);
-  if (u == 0) return left.p;
-  if (u == 1) return right.p;
-  const double v = 1 - u, chord = (right.p - left.p).norm();
-  const Eigen::Vector3d t0 = chord * (left.q * Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d t1 = chord * (right.q * Eigen::Vector3d::UnitZ());
-  return v * v * (1 + 2 * u) * left.p + u * u * (3 - 2 * u) * right.p + u * v * v * t0 -
-         u * u * v * t1;
+  return rod::ElementCurve(rod, e).At(u).p;
 }
 
 bool PullTo(const PointAt& target, double closed, rod::Rod* rod) {

@@ -15,8 +15,7 @@ bool PullTo(const PointAt& target, double gap, rod::Rod* rod);
 /// As near as the solver gets.
 inline constexpr double kThere = 1e-11;
 
-/// The position [m] of the point at arc length `s`: the cubic through the nodes beside it along
-/// their sections' normals.
+/// The position [m] of the point at arc length `s`.
 Eigen::Vector3d PointOn(const rod::Rod& rod, double s);
 
 }  // namespace cosserat_cable

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "cosserat_cable/rod/element_curve.h"
 #include "cosserat_cable/ros/conversions.h"
 
 namespace cosserat_cable {
@@ -65,19 +66,23 @@ struct Ring {
 
 // All that a tube may have: at the nodes, and between them where they are far apart.
 std::vector<Ring> AllRings(const CableSimulation& cable, double curvature_scale) {
-  const CableModel& model = cable.model();
   const std::vector<double> curvatures = cable.curvatures();
   const std::vector<Pose>& nodes = cable.nodes();
   const std::size_t elements = curvatures.size();
-  const double h = model.length / static_cast<double>(elements);
   const std::size_t per_element = (kMinSegments + elements - 1) / elements;
-  std::vector<Ring> rings(elements * per_element + 1);
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    const std::size_t e = std::min(i / per_element, elements - 1);
-    const double t = static_cast<double>(i - e * per_element) / static_cast<double>(per_element);
-    rings[i].X_WS = InterpolateNodes(nodes[e], nodes[e + 1], h, t);
-    rings[i].color = CurvatureAt(curvatures, static_cast<double>(e) + t) / curvature_scale;
+  const auto ring = [&](const Pose& X_WS, double x) -> Ring {
+    return {X_WS, CurvatureAt(curvatures, x) / curvature_scale};
+  };
+  std::vector<Ring> rings;
+  rings.reserve(elements * per_element + 1);
+  for (std::size_t e = 0; e < elements; ++e) {
+    const rod::ElementCurve curve(nodes[e], nodes[e + 1]);
+    for (std::size_t i = 0; i < per_element; ++i) {
+      const double t = static_cast<double>(i) / static_cast<double>(per_element);
+      rings.push_back(ring(curve.At(t), static_cast<double>(e) + t));
+    }
   }
+  rings.push_back(ring(nodes[elements], static_cast<double>(elements)));
   return rings;
 }
 
@@ -220,22 +225,11 @@ Eigen::Vector3d ViridisColor(double x) {
   return low + (u - static_cast<double>(i)) * (high - low);
 }
 
-Pose InterpolateNodes(const Pose& A, const Pose& B, double h, double t) {
-  const double t2 = t * t, t3 = t2 * t;
-  const Eigen::Vector3d a3 = h * (A.q * Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d b3 = h * (B.q * Eigen::Vector3d::UnitZ());
-  Pose pose;
-  pose.p = (2 * t3 - 3 * t2 + 1) * A.p + (t3 - 2 * t2 + t) * a3 + (3 * t2 - 2 * t3) * B.p +
-           (t3 - t2) * b3;
-  pose.q = A.q.slerp(t, B.q);
-  return pose;
-}
-
 Pose PoseAt(const CableSimulation& cable, double s) {
   const int elements = cable.model().elements;
   const double h = cable.model().length / elements;
   const int i = std::clamp(static_cast<int>(s / h), 0, elements - 1);
-  return InterpolateNodes(cable.node(i), cable.node(i + 1), h, s / h - i);
+  return rod::ElementCurve(cable.node(i), cable.node(i + 1)).At(s / h - i);
 }
 
 MarkerArray MakeMarkers(const CableSimulation& cable, const Pose& X_WR, std::int64_t time,

@@ -10,31 +10,6 @@
 namespace cosserat_cable {
 namespace {
 
-TEST(MarkersTest, InterpolationFollowsACircle) {
-  // A quarter circle in the x-z plane, of length 1, in ten elements.
-  constexpr int kElements = 10;
-  const double radius = 2 / M_PI;
-  const auto on_circle = [&](double s) {
-    const double angle = s / radius;
-    Pose pose;
-    pose.p = {radius * (1 - std::cos(angle)), 0, radius * std::sin(angle)};
-    pose.q = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitY());
-    return pose;
-  };
-  // Cubic Hermite: h^4/384 of the fourth derivative, 1/radius^3.
-  constexpr double kTolerance = 2e-6;
-  const double h = 1.0 / kElements;
-  for (int i = 0; i < kElements; ++i) {
-    const Pose A = on_circle(i * h), B = on_circle((i + 1) * h);
-    for (double t = 0; t <= 1; t += 0.13) {
-      const Pose pose = InterpolateNodes(A, B, h, t), expected = on_circle((i + t) * h);
-      EXPECT_LT((pose.p - expected.p).norm(), kTolerance) << i << " " << t;
-      EXPECT_LT(pose.q.angularDistance(expected.q), 1e-7) << i << " " << t;
-    }
-    EXPECT_LT((InterpolateNodes(A, B, h, 1).p - B.p).norm(), 1e-15);  // rounding
-  }
-}
-
 TEST(MarkersTest, ColoursAreViridis) {
   // Matplotlib's table at 0, 128/255 and 255.
   constexpr double kTolerance = 0.02;

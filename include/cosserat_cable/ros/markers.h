@@ -28,11 +28,7 @@ visualization_msgs::MarkerArray DeleteMarkers(const CableModel& model, std::int6
 /// The colour at x in [0, 1]: the viridis map, perceptually even.
 Eigen::Vector3d ViridisColor(double x);
 
-/// Position and section rotation at the fraction `t` of the way from node A to B, which are `h` [m]
-/// of arc length apart: a cubic Hermite curve with the sections' normals as tangents.
-Pose InterpolateNodes(const Pose& A, const Pose& B, double h, double t);
-
-/// The same at arc length s [m] of a cable's present state, in the world.
+/// Position and section rotation at arc length s [m] of a cable's present state, in the world.
 Pose PoseAt(const CableSimulation& cable, double s);
 
 }  // namespace cosserat_cable
