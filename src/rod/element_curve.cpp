@@ -31,7 +31,7 @@ ElementCurve::ElementCurve(const Pose& first, const Pose& second)
     : ElementCurve(first, second, Eigen::Vector2d::Zero()) {}
 
 ElementCurve::ElementCurve(const Rod& rod, int element)
-    : ElementCurve(rod.pose(element), rod.pose(element + 1), OwnShear(rod.model())) {}
+    : ElementCurve(rod.pose_behind(element), rod.pose(element + 1), OwnShear(rod.model())) {}
 
 Pose ElementCurve::At(double t) const {
   const double rest = 1 - t;

@@ -139,6 +139,11 @@ Pose Rod::pose(int i) const {
   const NodeState node = NodeAt(i);
   return {ToEigen(node.r), ToEigen(node.q)};
 }
+Pose Rod::pose_behind(int i) const {
+  Pose seen = pose(i);
+  if (!impl_->joints.empty()) seen.q = seen.q * ToEigen(impl_->joints[i]);
+  return seen;
+}
 Eigen::Vector3d Rod::angular_velocity(int i) const { return ToEigen(NodeAt(i).omega); }
 Eigen::Vector3d Rod::acceleration(int i) const {
   impl_->Fetch();

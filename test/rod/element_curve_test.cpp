@@ -98,5 +98,22 @@ TEST(ElementCurveTest, AShearedCantileverBendsAsTimoshenkoSays) {
   }
 }
 
+TEST(ElementCurveTest, BeginsBehindTheElbow) {
+  constexpr double kRounding = 1e-15;
+  RodModel model = RoundCable(1.0, 0.01, 0.03, 2e-3, 1.5e-3, 0, 0, 10);
+  const Eigen::Quaterniond elbow(AngleAxisd(M_PI / 2, Vector3d::UnitY()));  // from z to x
+  model.joints.push_back({0.5, elbow});
+  Rod rod(model);
+  std::vector<Pose> nodes(11);
+  for (int i = 0; i <= 10; ++i) {
+    Pose& node = nodes[static_cast<std::size_t>(i)];
+    node.p = i <= 5 ? Vector3d(0, 0, 0.1 * i) : Vector3d(0.1 * (i - 5), 0, 0.5);
+    if (i > 5) node.q = elbow;
+  }
+  rod.SetConfiguration(nodes);
+  EXPECT_LT((ElementCurve(rod, 5).At(0.3).p - Vector3d(0.03, 0, 0.5)).norm(), kRounding);
+  EXPECT_LT((ElementCurve(rod, 4).At(0.3).p - Vector3d(0, 0, 0.43)).norm(), kRounding);
+}
+
 }  // namespace
 }  // namespace cosserat_cable::rod

@@ -120,6 +120,7 @@ class Rod : public Centreline {
   Vec3<double> velocity(int node) const override;
   Quat<double> orientation(int node) const override;
   Pose pose(int node) const;
+  Pose pose_behind(int node) const;  ///< as the element behind sees it: after a joint
   Eigen::Vector3d angular_velocity(int node) const;  ///< section frame [rad/s]
   Eigen::Vector3d acceleration(int node) const;      ///< of the position [m/s^2]
   Eigen::Vector3d force(int element) const;          ///< F along a1, a2, a3 [N]
