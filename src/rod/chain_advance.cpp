@@ -13,21 +13,29 @@ void PredictOf(const StepCoefficients& c, StepChain<T>* chain) {
   StepChain<T>& w = *chain;
   const T dt(c.dt), coasting_velocity(c.coasting_velocity), coasting_rate(c.coasting_rate);
   const T old_algorithm(c.old_algorithm), old_rate(c.old_rate);
+  const T half_dt_squared(0.5 * c.dt * c.dt);
+  const T by_mean = half_dt_squared * w.persistence.v;
+  const T by_mean_omega = half_dt_squared * w.persistence.omega;
+  const T velocity_by_increment(c.velocity_by_increment), rate_by_increment(c.rate_by_increment);
   T largest(0.0);
   const int count = static_cast<int>(w.nodes.size());
   for (int k = 0; k < count; ++k) {
     const ChainState<T>& from = w.state[k];
     ChainNode<T>& to = w.nodes[k];
     NodeRates<T>& past = w.past[k];
+    const Vec3<T> beyond = by_mean * from.mean.v;
+    const Vec3<T> turn_beyond = by_mean_omega * from.mean.omega;
     to.q0 = from.at.q;
-    to.turn = dt * from.at.omega;
-    to.at.r = from.at.r + dt * from.at.v;
-    to.at.v = from.at.v + coasting_velocity * from.algorithm.v;
-    to.at.omega = from.at.omega + coasting_velocity * from.algorithm.omega;
+    to.turn = dt * from.at.omega + turn_beyond;
+    to.at.r = from.at.r + (dt * from.at.v + beyond);
+    to.at.v = from.at.v + coasting_velocity * from.algorithm.v + velocity_by_increment * beyond;
+    to.at.omega = from.at.omega + coasting_velocity * from.algorithm.omega +
+                  velocity_by_increment * turn_beyond;
     past.v = old_algorithm * from.algorithm.v + old_rate * from.rate.v;
     past.omega = old_algorithm * from.algorithm.omega + old_rate * from.rate.omega;
-    to.rate.v = past.v + coasting_rate * from.algorithm.v;
-    to.rate.omega = past.omega + coasting_rate * from.algorithm.omega;
+    to.rate.v = past.v + coasting_rate * from.algorithm.v + rate_by_increment * beyond;
+    to.rate.omega =
+        past.omega + coasting_rate * from.algorithm.omega + rate_by_increment * turn_beyond;
     largest = Max(largest, TurnNode(&to));
   }
   if (AnyAtLeast(largest, kExpSeriesBelow)) CorrectTurns(&w);
@@ -59,7 +67,8 @@ ChainState<T> Taken(const T& taken, const ChainState<T>& next, const ChainState<
            Taken(taken, next.at.v, old.at.v),
            Taken(taken, next.at.omega, old.at.omega)},
           rates(next.rate, old.rate),
-          rates(next.algorithm, old.algorithm)};
+          rates(next.algorithm, old.algorithm),
+          rates(next.mean, old.mean)};
 }
 template <class T>
 ChainShear<T> Taken(const T& taken, const ChainShear<T>& next, const ChainShear<T>& old) {
@@ -154,22 +163,48 @@ bool CommitElements(const T& taken, StepChain<T>* chain) {
   return true;
 }
 
+/// The part of vectors over a rod's nodes that would have foretold the ones that followed best.
+template <class T>
+class Foretold {
+ public:
+  void Add(const Vec3<T>& before, const Vec3<T>& now) {
+    product_ += Dot(before, now);
+    square_ += Dot(before, before);
+  }
+  T Part() {
+    Join(&product_);
+    Join(&square_);
+    const T smallest(1e-100);  // of a rod at rest
+    return Min(Max(product_ / Max(square_, smallest), T(0.0)), T(1.0));
+  }
+
+ private:
+  T product_ = 0.0, square_ = 0.0;
+};
+
 template <class T>
 void CommitNodes(const StepCoefficients& c, const T& taken, StepChain<T>* chain) {
   StepChain<T>& w = *chain;
-  const T algorithm_by_rate(c.algorithm_by_rate);
+  const T algorithm_by_rate(c.algorithm_by_rate), old_mean(c.old_mean), new_mean(c.new_mean);
   const bool all = AllTaken(taken);
   const int count = static_cast<int>(w.nodes.size());
+  Foretold<T> foretold, foretold_omega;
   for (int k = 0; k < count; ++k) {
     const ChainNode<T>& from = w.nodes[k];
     const NodeRates<T>& past = w.past[k];
-    ChainState<T> now = {from.at,
-                         from.rate,
-                         {algorithm_by_rate * (from.rate.v - past.v),
-                          algorithm_by_rate * (from.rate.omega - past.omega)}};
+    const NodeRates<T> algorithm = {algorithm_by_rate * (from.rate.v - past.v),
+                                    algorithm_by_rate * (from.rate.omega - past.omega)};
+    const NodeRates<T>&before = w.state[k].algorithm, &mean_before = w.state[k].mean;
+    const NodeRates<T> mean = {old_mean * before.v + new_mean * algorithm.v,
+                               old_mean * before.omega + new_mean * algorithm.omega};
+    foretold.Add(mean_before.v, mean.v);
+    foretold_omega.Add(mean_before.omega, mean.omega);
+    ChainState<T> now = {from.at, from.rate, algorithm, mean};
     now.at.q = Renormalised(now.at.q);
     w.state[k] = all ? now : Taken(taken, now, w.state[k]);
   }
+  w.persistence = {Taken(taken, foretold.Part(), w.persistence.v),
+                   Taken(taken, foretold_omega.Part(), w.persistence.omega)};
 }
 
 /// False where it has to be done again, as EliminateForward.

@@ -26,11 +26,13 @@ void ChainStepper<T>::CopyState(int rod_lane, const Rod::Impl& rod) {
   rod.FillMasses(rod_lane, layout, &chain_.masses);
   for (int lane = 0; lane < kLanes; ++lane) {
     if (!layout.halves && lane != rod_lane) continue;
+    SetLane(&chain_.persistence, lane, rod.w.persistence);
     for (int k = 0; k <= layout.chain_elements; ++k) {
       const int i = std::max(0, layout.NodeAt(k, lane));
       SetLane(&chain_.state[k].at, lane, rod.w.node[i]);
       SetLane(&chain_.state[k].rate, lane, rod.w.rate[i]);
       SetLane(&chain_.state[k].algorithm, lane, rod.w.algorithm[i]);
+      SetLane(&chain_.state[k].mean, lane, rod.w.mean[i]);
     }
     for (int k = 0; k < layout.chain_elements; ++k)
       SetLane(&chain_.shear[k], lane, rod.shear[std::max(0, layout.ElementAt(k, lane))]);

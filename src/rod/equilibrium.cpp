@@ -174,8 +174,9 @@ void Rod::Impl::FinishStatics(const Load* load, SolveReport* report) {
   if (load) AddLoad(*load, 0, false, 0.0, &w);
   TakeRest();
   w.node = w.trial;
-  std::fill(w.rate.begin(), w.rate.end(), NodeRates<double>{});
-  std::fill(w.algorithm.begin(), w.algorithm.end(), NodeRates<double>{});
+  for (auto* rates : {&w.rate, &w.algorithm, &w.mean})
+    std::fill(rates->begin(), rates->end(), NodeRates<double>{});
+  w.persistence = {};
 }
 
 SolveReport Rod::Equilibrate(const Load* load) {

@@ -55,6 +55,16 @@ void SetLane(NodeRates<T>* rates, int lane, const NodeRates<double>& value) {
 }
 
 template <class T>
+Persistence<double> GetLane(const Persistence<T>& persistence, int lane) {
+  return {GetLane(persistence.v, lane), GetLane(persistence.omega, lane)};
+}
+template <class T>
+void SetLane(Persistence<T>* persistence, int lane, const Persistence<double>& value) {
+  SetLane(&persistence->v, lane, value.v);
+  SetLane(&persistence->omega, lane, value.omega);
+}
+
+template <class T>
 void SetLane(ElementLaw<T>* law, int lane, const ElementLaw<double>& value) {
   SetLane(&law->h, lane, value.h);
   SetLane(&law->C_F, lane, value.C_F);

@@ -34,8 +34,9 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
     NodeState& n = m.w.node[i];
     n = NodeState{ToSmall(nodes[i].p), Normalized(ToSmall(nodes[i].q)), V3{}, V3{}};
     if (i > 0 && Dot(n.q, m.w.node[i - 1].q) < 0) n.q = {-n.q.w, -n.q.x, -n.q.y, -n.q.z};
-    m.w.rate[i] = m.w.algorithm[i] = NodeRates<double>{};
+    m.w.rate[i] = m.w.algorithm[i] = m.w.mean[i] = NodeRates<double>{};
   }
+  m.w.persistence = {};
   m.w.trial = m.w.node;
   m.PrepareStatics();
   EvaluateForces(&m.w);
@@ -75,11 +76,13 @@ void Rod::AddRigidMotion(const Motion& frame) {
     NodeState& n = impl_->w.node[i];
     n.v += ToSmall(added.v);
     n.omega += ToSmall(added.omega);
-    for (NodeRates<double>* rates : {&impl_->w.rate[i], &impl_->w.algorithm[i]}) {
+    for (NodeRates<double>* rates :
+         {&impl_->w.rate[i], &impl_->w.algorithm[i], &impl_->w.mean[i]}) {
       rates->v += ToSmall(added.a);
       rates->omega += ToSmall(added.alpha);
     }
   }
+  impl_->w.persistence = {1, 1};
   for (EndPart* end : {&impl_->ends.a, &impl_->ends.b}) {
     Motion clamp = end->clamp();
     add(clamp.X, &clamp);
@@ -93,8 +96,9 @@ void Rod::SetMotion(const std::vector<Motion>& nodes, const Motion& a, const Mot
   for (int i = 0; i < m.w.count; ++i) {
     m.w.node[i].v = ToSmall(nodes[i].v);
     m.w.node[i].omega = ToSmall(nodes[i].omega);
-    m.w.rate[i] = m.w.algorithm[i] = {ToSmall(nodes[i].a), ToSmall(nodes[i].alpha)};
+    m.w.rate[i] = m.w.algorithm[i] = m.w.mean[i] = {ToSmall(nodes[i].a), ToSmall(nodes[i].alpha)};
   }
+  m.w.persistence = {1, 1};
   m.ends.a.Start(a);
   m.ends.b.Start(b);
   m.energy.Wait();  // while the forces are still those of statics

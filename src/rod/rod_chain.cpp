@@ -140,12 +140,14 @@ ElementStress Rod::Impl::StressIn(const StepChain<T>& chain, int entry, int lane
 template <class T>
 void Rod::Impl::TakeState(const StepChain<T>& chain, int rod_lane) {
   const ChainLayout& layout = chain.layout;
+  w.persistence = GetLane(chain.persistence, rod_lane);
   for (int i = 0; i <= model.elements; ++i) {
     const ChainLayout::Place at = layout.OfNode(i, rod_lane);
     const ChainState<T>& state = chain.state[at.entry];
     w.node[i] = GetLane(state.at, at.lane);
     w.rate[i] = GetLane(state.rate, at.lane);
     w.algorithm[i] = GetLane(state.algorithm, at.lane);
+    w.mean[i] = GetLane(state.mean, at.lane);
   }
   for (int e = 0; e < model.elements; ++e) {
     const ChainLayout::Place at = layout.OfElement(e, rod_lane);

@@ -39,8 +39,8 @@ struct Rod::Impl {
   std::vector<Quat<double>> joints;  // by node; none of a rod without joints
   EndParts ends;
 
-  // The state: `node`, `rate` and `algorithm` of the workspace, and by element. As it was when it
-  // was last fetched from where it is; what the end nodes are is always known.
+  // The state: that of the workspace's nodes, and by element. As it was when it was last fetched
+  // from where it is; what the end nodes are is always known.
   StepWorkspace<double> w;
   std::vector<ShearHistory> shear;
   RodAddress address;

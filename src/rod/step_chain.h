@@ -68,6 +68,17 @@ template <class T>
 struct ChainState {
   Node<T> at;
   NodeRates<T> rate, algorithm;  // true accelerations, generalised-alpha's own
+  // The mean of the latter over the last step, whose increment was dt v + dt^2/2 mean. It is smooth
+  // where what a stiff section leaves of a jolt turns the sign of `algorithm` from step to step.
+  NodeRates<T> mean;
+};
+
+/// How much of the nodes' mean accelerations the next step is guessed to keep, in [0, 1]: as much
+/// as would have been the best guess (least squares over the rod) for the step before. Next to all
+/// of it in a smooth motion, nothing after a jolt.
+template <class T>
+struct Persistence {
+  T v = 0.0, omega = 0.0;
 };
 
 template <class T>
@@ -204,6 +215,7 @@ struct StepChain {
   bool branched = false;  // whether any rod's section has more than its Kelvin-Voigt elements
 
   std::vector<ChainState<T>> state;
+  Persistence<T> persistence;
   std::vector<ChainShear<T>> shear, next_shear;  // the latter is of a step that is being accepted
 
   std::vector<ChainNode<T>> nodes;

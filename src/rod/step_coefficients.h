@@ -18,6 +18,8 @@ struct StepCoefficients {
     const double coasting_algorithm = -algorithm_by_increment * dt * dt * (0.5 - kScheme.beta);
     coasting_velocity = dt * (1 - kScheme.gamma) + dt * kScheme.gamma * coasting_algorithm;
     coasting_rate = new_algorithm * coasting_algorithm;
+    old_mean = 1 - 2 * kScheme.beta;
+    new_mean = 2 * kScheme.beta;
   }
 
   double dt;                       ///< [s]
@@ -25,7 +27,8 @@ struct StepCoefficients {
   double rate_by_increment;        ///< d vdot_1/d(increment) [1/s^2]
   double old_algorithm, old_rate;  ///< d vdot_1/d a_0, d vdot_1/d vdot_0
   double algorithm_by_rate;        ///< d a_1/d vdot_1
-  // With the increment dt v_0, which is the first guess:
+  double old_mean, new_mean;       ///< d mean/d a_0, d mean/d a_1; see ChainState
+  // With the increment dt v_0:
   double coasting_velocity;  ///< d v_1/d a_0 [s]
   double coasting_rate;      ///< d vdot_1/d a_0, besides `old_algorithm`
 };

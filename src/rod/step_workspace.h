@@ -18,6 +18,7 @@ struct StepWorkspace {
         node(count),
         rate(count),
         algorithm(count),
+        mean(count),
         trial(count),
         trial_rate(count),
         rhs(count),
@@ -34,6 +35,8 @@ struct StepWorkspace {
   std::vector<Node<T>> node;
   std::vector<NodeRates<T>> rate;       // true accelerations
   std::vector<NodeRates<T>> algorithm;  // generalised-alpha's own
+  std::vector<NodeRates<T>> mean;       // of the latter, as in ChainState
+  Persistence<T> persistence;
 
   // The iterate; of a time step only the ends that are held.
   std::vector<Node<T>> trial;
