@@ -117,7 +117,7 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
   }
   std::vector<CableSimulation*> simulations;
   for (const auto& cable : cables_) simulations.push_back(cable->simulation());
-  fleet_ = std::make_unique<CableFleet>(simulations);
+  fleet_ = std::make_unique<CableFleet>(simulations, threads_->arena.max_concurrency());
   groups_.resize(fleet_->group_count());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].then.resize(fleet_->members(g).size());
