@@ -23,9 +23,10 @@ NearestBody::NearestBody(std::vector<ContactSite> sites, std::vector<const Body*
       bodies_(std::move(bodies)),
       reach_(reach),
       first_sites_(FirstSites(sites_)),
+      approaches_(bodies_),
       watches_(bodies_.size(), ElementWatches(elements())),
       feet_B_(bodies_.size() * elements(), Eigen::Vector3d::Constant(kNever)),
-      nodes_B_(bodies_.size()) {
+      last_body_(bodies_.size()) {
   for (ElementWatches& watches : watches_)
     for (std::size_t e = 0; e < elements(); ++e)
       if (!HasSites(e)) watches.Set(e, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), kNever);
@@ -80,15 +81,13 @@ double NearestBody::Improve(const Pair& pair, double nearest) {
   return nearest;
 }
 
-double NearestBody::Distance(const std::vector<Eigen::Vector3d>& nodes_W,
+double NearestBody::Distance(const Pose& X_WC, const std::vector<Eigen::Vector3d>& nodes_W,
                              const std::vector<Motion>& bodies_W) {
   nodes_W_.Assign(nodes_W);
-  for (std::size_t b = 0; b < bodies_.size(); ++b) nodes_B_[b].Assign(nodes_W_, bodies_W[b].X);
+  approaches_.Move(X_WC, nodes_W_, bodies_W);
   double nearest = reach_;
   const auto look = [&](std::size_t b, std::size_t e) {
-    const Pair pair = {b, e, nodes_B_[b][e], nodes_B_[b][e + 1]};
-    if (watches_[b].DistanceAt(e, pair.left_B, pair.right_B) >= nearest) return;
-    const double improved = Improve(pair, nearest);
+    const double improved = Improve({b, e, nodes_B_[e], nodes_B_[e + 1]}, nearest);
     if (improved < nearest) {
       last_body_ = b;
       last_element_ = e;
@@ -97,15 +96,25 @@ double NearestBody::Distance(const std::vector<Eigen::Vector3d>& nodes_W,
   };
   // What was the nearest will hardly be far now: with it first, little else needs a look.
   const std::size_t likely_body = last_body_, likely_element = last_element_;
-  if (likely_body < bodies_.size() && likely_element < elements())
+  if (likely_body < bodies_.size()) {
+    nodes_B_.Assign(nodes_W_, bodies_W[likely_body].X);
     look(likely_body, likely_element);
-  const double half = 0.5 * nodes_W_.LongestStep();
+  }
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    const std::vector<std::size_t>& near = watches_[b].Within(nearest, nodes_B_[b]);
-    if (near.empty()) continue;
-    if (nearest >= 0 && bodies_[b]->IsBeyond(nearest + half, nodes_B_[b])) continue;
-    for (const std::size_t e : near)
-      if (b != likely_body || e != likely_element) look(b, e);
+    if (approaches_.at_least(b) >= nearest) continue;
+    nodes_B_.Assign(nodes_W_, bodies_W[b].X);
+    const double watched = watches_[b].Look(nodes_B_);
+    // What elements know holds for a body as it is turned.
+    double at_least = bodies_[b]->axis() < 0 ? watched : -kNever;
+    if (at_least < nearest) {
+      const double of_nodes = bodies_[b]->LowerBoundTurned(nodes_B_);
+      at_least = std::max(at_least, of_nodes - 0.5 * nodes_B_.LongestStep());
+    }
+    approaches_.Set(b, at_least);
+    if (at_least >= nearest) continue;
+    for (std::size_t e = 0; e < elements(); ++e)
+      if (watches_[b].at_least(e) < nearest && (b != likely_body || e != likely_element))
+        look(b, e);
   }
   return nearest < reach_ ? nearest : std::numeric_limits<double>::infinity();
 }

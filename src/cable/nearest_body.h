@@ -14,8 +14,9 @@ class NearestBody {
   NearestBody(std::vector<ContactSite> sites, std::vector<const Body*> bodies, double reach);
 
   /// Smallest signed distance [m] from the centreline to any body; +infinity where all are beyond
-  /// reach.
-  double Distance(const std::vector<Eigen::Vector3d>& nodes_W, const std::vector<Motion>& bodies_W);
+  /// reach. `X_WC`: see Approaches::Move.
+  double Distance(const Pose& X_WC, const std::vector<Eigen::Vector3d>& nodes_W,
+                  const std::vector<Motion>& bodies_W);
 
  private:
   /// An element against one body, its ends in the body's frame [m].
@@ -35,12 +36,13 @@ class NearestBody {
   std::vector<const Body*> bodies_;
   double reach_;
   std::vector<int> first_sites_;
+  Approaches approaches_;
   std::vector<ElementWatches> watches_;  // by body
   /// Body-major, by element: the body's point that was the nearest to one of its sites last.
   std::vector<Eigen::Vector3d> feet_B_;
-  PointRows nodes_W_;
-  std::vector<PointRows> nodes_B_;                // by body
-  std::size_t last_body_ = 0, last_element_ = 0;  // which were the nearest last time
+  PointRows nodes_W_, nodes_B_;  // scratch
+  // Which were the nearest last time; at first none, as no body has that index.
+  std::size_t last_body_, last_element_ = 0;
 };
 
 }  // namespace cosserat_cable
