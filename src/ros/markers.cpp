@@ -57,6 +57,14 @@ double CurvatureAt(const std::vector<double>& curvatures, double u) {
   return (1 - t) * curvatures[i] + t * curvatures[j];
 }
 
+Eigen::Vector3d InterpolatePosition(const Pose& A, const Pose& B, double h, double t) {
+  const double t2 = t * t, t3 = t2 * t;
+  const Eigen::Vector3d a3 = h * (A.q * Eigen::Vector3d::UnitZ());
+  const Eigen::Vector3d b3 = h * (B.q * Eigen::Vector3d::UnitZ());
+  return (2 * t3 - 3 * t2 + 1) * A.p + (t3 - 2 * t2 + t) * a3 + (3 * t2 - 2 * t3) * B.p +
+         (t3 - t2) * b3;
+}
+
 /// A cross-section of the tube.
 struct Ring {
   Pose X_WS;
@@ -71,13 +79,19 @@ std::vector<Ring> AllRings(const CableSimulation& cable, double curvature_scale)
   const std::size_t elements = curvatures.size();
   const double h = model.length / static_cast<double>(elements);
   const std::size_t per_element = (kMinSegments + elements - 1) / elements;
-  std::vector<Ring> rings(elements * per_element + 1);
-  for (std::size_t i = 0; i < rings.size(); ++i) {
-    const std::size_t e = std::min(i / per_element, elements - 1);
-    const double t = static_cast<double>(i - e * per_element) / static_cast<double>(per_element);
-    rings[i].X_WS = InterpolateNodes(nodes[e], nodes[e + 1], h, t);
-    rings[i].color = CurvatureAt(curvatures, static_cast<double>(e) + t) / curvature_scale;
+  std::vector<Ring> rings;
+  rings.reserve(elements * per_element + 1);
+  const auto add = [&](const Pose& X_WS, double u) {
+    rings.push_back({X_WS, CurvatureAt(curvatures, u) / curvature_scale});
+  };
+  for (std::size_t e = 0; e < elements; ++e) {
+    add(nodes[e], static_cast<double>(e));
+    for (std::size_t k = 1; k < per_element; ++k) {
+      const double t = static_cast<double>(k) / static_cast<double>(per_element);
+      add(InterpolateNodes(nodes[e], nodes[e + 1], h, t), static_cast<double>(e) + t);
+    }
   }
+  add(nodes.back(), static_cast<double>(elements));
   return rings;
 }
 
@@ -194,8 +208,7 @@ Marker MakeName(const CableSimulation& cable, const Pose& X_RW, std::int64_t tim
   text.scale.z = kTextHeight;
   // Dark enough for a light background, light enough for a dark one.
   text.color = Color({0.35, 0.38, 0.45});
-  const Pose apex = PoseAt(cable, model.apex_s);
-  text.pose.position = ToPoint(X_RW * apex.p);
+  text.pose.position = ToPoint(X_RW * PositionAt(cable, model.apex_s));
   text.pose.position.z += model.diameter + kTextHeight;
   return text;
 }
@@ -221,21 +234,14 @@ Eigen::Vector3d ViridisColor(double x) {
 }
 
 Pose InterpolateNodes(const Pose& A, const Pose& B, double h, double t) {
-  const double t2 = t * t, t3 = t2 * t;
-  const Eigen::Vector3d a3 = h * (A.q * Eigen::Vector3d::UnitZ());
-  const Eigen::Vector3d b3 = h * (B.q * Eigen::Vector3d::UnitZ());
-  Pose pose;
-  pose.p = (2 * t3 - 3 * t2 + 1) * A.p + (t3 - 2 * t2 + t) * a3 + (3 * t2 - 2 * t3) * B.p +
-           (t3 - t2) * b3;
-  pose.q = A.q.slerp(t, B.q);
-  return pose;
+  return {InterpolatePosition(A, B, h, t), A.q.slerp(t, B.q)};
 }
 
-Pose PoseAt(const CableSimulation& cable, double s) {
+Eigen::Vector3d PositionAt(const CableSimulation& cable, double s) {
   const int elements = cable.model().elements;
   const double h = cable.model().length / elements;
   const int i = std::clamp(static_cast<int>(s / h), 0, elements - 1);
-  return InterpolateNodes(cable.node(i), cable.node(i + 1), h, s / h - i);
+  return InterpolatePosition(cable.node(i), cable.node(i + 1), h, s / h - i);
 }
 
 MarkerArray MakeMarkers(const CableSimulation& cable, const Pose& X_WR, std::int64_t time,

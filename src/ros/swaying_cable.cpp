@@ -80,7 +80,7 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
 }
 
 void CableEngine::SwayingCable::Record(const Instant& now) {
-  const Eigen::Vector3d apex_W = PoseAt(simulation_, model().apex_s).p;
+  const Eigen::Vector3d apex_W = PositionAt(simulation_, model().apex_s);
   history_.Add(now.time, options_.amplitude_frame == AmplitudeFrame::kWorld
                              ? apex_W
                              : now.frames[frames_.reference].X.Inverse() * apex_W);

@@ -32,7 +32,7 @@ Eigen::Vector3d ViridisColor(double x);
 /// of arc length apart: a cubic Hermite curve with the sections' normals as tangents.
 Pose InterpolateNodes(const Pose& A, const Pose& B, double h, double t);
 
-/// The same at arc length s [m] of a cable's present state, in the world.
-Pose PoseAt(const CableSimulation& cable, double s);
+/// The position of that at arc length s [m] of a cable's present state, in the world.
+Eigen::Vector3d PositionAt(const CableSimulation& cable, double s);
 
 }  // namespace cosserat_cable
