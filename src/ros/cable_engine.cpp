@@ -127,11 +127,9 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
 
 CableEngine::~CableEngine() = default;
 
-std::size_t CableEngine::FrameIndex(const std::string& link) {
-  const auto found = std::find(frames_.begin(), frames_.end(), link);
-  if (found != frames_.end()) return static_cast<std::size_t>(found - frames_.begin());
-  frames_.push_back(link);
-  return frames_.size() - 1;
+std::size_t CableEngine::FrameIndex(const std::string& link) const {
+  const std::vector<std::string>& all = links_.links();
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), link) - all.begin());
 }
 
 void CableEngine::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
@@ -149,11 +147,12 @@ void CableEngine::Follow(std::int64_t time, Instant* instant) {
   instant->time = time;
   instant->telemetry = Due(telemetry_period_, time);
   instant->markers = send_markers_ && Due(marker_period_, time);
-  instant->frames.resize(frames_.size());
-  instant->in_gap.resize(frames_.size());
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    instant->frames[i] = links_.Follow(frames_[i], time);
-    instant->in_gap[i] = instant->telemetry && links_.InGap(frames_[i], time);
+  const std::vector<std::string>& links = links_.links();
+  instant->frames.resize(links.size());
+  instant->in_gap.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    instant->frames[i] = links_.Follow(i, time);
+    instant->in_gap[i] = instant->telemetry && links_.InGap(links[i], time);
   }
 }
 

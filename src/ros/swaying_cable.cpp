@@ -28,8 +28,8 @@ diagnostic_msgs::DiagnosticStatus CableEngine::SwayingCable::Diagnostics() const
 }
 
 void CableEngine::SwayingCable::Surround(const Instant& now) {
-  surroundings_.a = now.frames[frames_.a] * Motion::Resting(model().a.X_LC);
-  surroundings_.b = now.frames[frames_.b] * Motion::Resting(model().b.X_LC);
+  surroundings_.a = now.frames[frames_.a] * model().a.X_LC;
+  surroundings_.b = now.frames[frames_.b] * model().b.X_LC;
   for (std::size_t i = 0; i < frames_.obstacles.size(); ++i)
     surroundings_.obstacles[i] = now.frames[frames_.obstacles[i]];
 }

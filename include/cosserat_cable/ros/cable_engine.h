@@ -91,13 +91,12 @@ class CableEngine {
   void CollectTold();
   void Deliver(OutputSink* sink);
   bool Due(std::int64_t period, std::int64_t time) const;
-  std::size_t FrameIndex(const std::string& link);
+  std::size_t FrameIndex(const std::string& link) const;
 
   EngineOptions options_;
   std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
   std::string vehicle_root_;
   LinkMotion links_;
-  std::vector<std::string> frames_;  // links whose motion the cables need
   std::vector<std::unique_ptr<SwayingCable>> cables_;
   std::unique_ptr<CableFleet> fleet_;  // of their simulations
   std::vector<Group> groups_;          // of the fleet
