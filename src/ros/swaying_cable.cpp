@@ -118,18 +118,15 @@ bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
   summary_.amplitude_max = std::max(summary_.amplitude_max, message.amplitude);
   summary_.dissipated = message.dissipated;
   summary_.energy_residual = message.energy_residual;
-  unmeasured_.push_back({told_.size(), std::move(posture)});
-  told_.push_back({now.time, index_, std::move(message)});
+  told_.push_back({now.time, index_, std::move(message), std::move(posture)});
   return true;
 }
 
-void CableEngine::SwayingCable::MeasureClearances() {
-  for (const Unmeasured& unmeasured : unmeasured_) {
-    auto& message = std::get<ApexTelemetry>(told_[unmeasured.told].message);
-    message.clearance = simulation_.Clearance(unmeasured.posture);
-    summary_.clearance_min = std::min(summary_.clearance_min, message.clearance);
-  }
-  unmeasured_.clear();
+void CableEngine::SwayingCable::MeasureClearance(Told* told) {
+  auto* message = std::get_if<ApexTelemetry>(&told->message);
+  if (message == nullptr) return;
+  message->clearance = simulation_.Clearance(told->posture);
+  summary_.clearance_min = std::min(summary_.clearance_min, message->clearance);
 }
 
 std::vector<CableEngine::Told> CableEngine::SwayingCable::TakeTold() {

@@ -88,7 +88,13 @@ class CableEngine {
   void Follow(std::int64_t time, Instant* instant);
   void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
   void Sway(std::size_t group, const std::vector<Instant>& block);
+  void SwayThrough(const std::vector<Instant>& block, std::int64_t ready, OutputSink* sink,
+                   std::vector<Instant>* next);
   void CollectTold();
+  void MeasureClearances(std::size_t cable);
+  void MeasureClearances();
+  void TakeMeasured();
+  void TellDiagnostics();
   void Deliver(OutputSink* sink);
   bool Due(std::int64_t period, std::int64_t time) const;
   std::size_t FrameIndex(const std::string& link) const;
@@ -101,7 +107,8 @@ class CableEngine {
   std::unique_ptr<CableFleet> fleet_;  // of their simulations
   std::vector<Group> groups_;          // of the fleet
   std::unique_ptr<Threads> threads_;
-  std::vector<Told> told_;  // to be delivered
+  std::vector<Told> unmeasured_;  // told, but for the clearances
+  std::vector<Told> told_;        // to be delivered
 
   bool send_markers_ = true;
   bool started_ = false;
