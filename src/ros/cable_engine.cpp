@@ -32,6 +32,9 @@ std::int64_t Period(double rate) {
   return rate > 0 ? static_cast<std::int64_t>(std::llround(1e9 / rate)) : 0;
 }
 
+// As EngineOptions says it, in TBB's terms.
+int Concurrency(int threads) { return threads > 0 ? threads : oneapi::tbb::task_arena::automatic; }
+
 }  // namespace
 
 /// Cables that go through one kernel together.
@@ -42,7 +45,7 @@ struct CableEngine::Group {
 
 /// Threads, or the caller's own where there is one.
 struct CableEngine::Threads {
-  explicit Threads(int count) : arena(count > 0 ? count : oneapi::tbb::task_arena::automatic) {}
+  explicit Threads(int count) : arena(Concurrency(count)) {}
   oneapi::tbb::task_arena arena;
 };
 
@@ -81,12 +84,20 @@ std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables) {
   return {links.begin(), links.end()};
 }
 
-BodyMap MakeBodies(const VehicleModel& vehicle) {
+BodyMap MakeBodies(const VehicleModel& vehicle, int threads) {
   BodyMap bodies;
   MeshStore store;
-  for (const auto& [link, shapes] : vehicle.collision) {
-    if (!shapes.empty()) bodies[link] = std::make_unique<Body>(shapes, &store);
-  }
+  oneapi::tbb::task_arena arena(Concurrency(threads));
+  arena.execute([&] {
+    oneapi::tbb::task_group making;
+    for (const auto& [link, shapes] : vehicle.collision) {
+      if (shapes.empty()) continue;
+      making.run([&store, &shapes = shapes, &body = bodies[link]] {
+        body = std::make_unique<Body>(shapes, &store);
+      });
+    }
+    making.wait();
+  });
   return bodies;
 }
 

@@ -22,7 +22,7 @@ struct Clearance {
 };
 
 /// Lets bodies share what they make of equal meshes: a vehicle has four wheels, and one mesh of
-/// them. Needed while bodies are made, not after.
+/// them. Needed while bodies are made, which may be in several threads at once, and not after.
 class MeshStore {
  public:
   MeshStore();

@@ -41,8 +41,8 @@ struct EngineOptions {
 /// Collision geometry by link.
 using BodyMap = std::map<std::string, std::unique_ptr<Body>>;
 
-/// The bodies of all links with collision shapes.
-BodyMap MakeBodies(const VehicleModel& vehicle);
+/// The bodies of all links with collision shapes. `threads`: see EngineOptions.
+BodyMap MakeBodies(const VehicleModel& vehicle, int threads);
 
 /// Links whose motion the cables need: clamps, references, and those to avoid; each once.
 std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables);
