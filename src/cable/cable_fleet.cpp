@@ -6,9 +6,22 @@
 #include <tuple>
 
 #include "cable_simulation_impl.h"
+#include "cosserat_cable/math/lanes.h"
 #include "cosserat_cable/rod/rod_batch.h"
 
 namespace cosserat_cable {
+namespace {
+
+std::size_t RatioRoundedUp(std::size_t a, std::size_t b) { return (a + b - 1) / b; }
+
+/// How many of `cables` alike go together at most. Fewer than four cost as much as four.
+std::size_t GroupLimit(std::size_t cables, int threads) {
+  return std::clamp<std::size_t>(RatioRoundedUp(cables, static_cast<std::size_t>(threads)),
+                                 kLaneCount<Lanes>,
+                                 static_cast<std::size_t>(rod::RodBatch::PreferredRods()));
+}
+
+}  // namespace
 
 struct CableFleet::Impl {
   /// Cables that share a kernel; a lone one is stepped by itself, which is cheaper.
@@ -22,23 +35,24 @@ struct CableFleet::Impl {
   std::vector<Group> groups;
 };
 
-CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
+CableFleet::CableFleet(const std::vector<CableSimulation*>& cables, int threads)
     : impl_(std::make_unique<Impl>()) {
   impl_->cables = cables;
   // What the rods of a batch have in common: the number of elements, and how ends are held.
   std::map<std::tuple<int, bool, bool, bool, bool>, std::vector<std::size_t>> alike;
-  const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
   for (std::size_t i = 0; i < cables.size(); ++i) {
     const rod::RodModel& rod = cables[i]->impl_->rod.model();
     alike[{rod.elements, rod.a.clamped(), rod.b.clamped(), rod.a.partly_held(),
            rod.b.partly_held()}]
         .push_back(i);
   }
-  for (const auto& [kind, members] : alike)
-    for (std::size_t first = 0; first < members.size(); first += together) {
-      const std::size_t last = std::min(members.size(), first + together);
+  for (const auto& [kind, members] : alike) {
+    // As even as can be: whatever the limit, only one that has no like is by itself.
+    const std::size_t count = RatioRoundedUp(members.size(), GroupLimit(members.size(), threads));
+    for (std::size_t g = 0; g < count; ++g) {
       Impl::Group group;
-      group.members.assign(members.begin() + first, members.begin() + last);
+      group.members.assign(members.begin() + g * members.size() / count,
+                           members.begin() + (g + 1) * members.size() / count);
       if (group.members.size() > 1) {
         std::vector<rod::Rod*> rods;
         for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
@@ -47,6 +61,7 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables)
       }
       impl_->groups.push_back(std::move(group));
     }
+  }
 }
 CableFleet::~CableFleet() = default;
 CableFleet::CableFleet(CableFleet&&) noexcept = default;

@@ -71,7 +71,7 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
     return outcome;
   }
   m.TakePositions();
-  m.contact.Search(m.positions, now.obstacles);
+  m.contact.Search(now.a.X, m.positions, now.obstacles);
   const double deepest = kDeepest * m.model.diameter, inside = m.Depth();
   const bool settled = m.contact.empty() || m.SettleOnBodies(&outcome);
   if (!settled || m.Depth() > deepest) m.PayOut(&outcome);
@@ -86,7 +86,7 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
   }
   if (!Rests(now)) m.SetOut(now, &outcome);
   m.TakePositions();
-  m.contact.Search(m.positions, now.obstacles);
+  m.contact.Search(now.a.X, m.positions, now.obstacles);
   m.contact.Accept();
   m.nodes_are_known = false;
   outcome.ok = true;
@@ -104,7 +104,7 @@ bool CableSimulation::Impl::SettleOnBodies(StepOutcome* outcome) {
   for (int round = 0; round < kMaxContactRounds; ++round) {
     TakePositions();
     const std::vector<Eigen::Vector3d> before = positions;
-    contact.Search(positions, now.obstacles);
+    contact.Search(now.a.X, positions, now.obstacles);
     const rod::SolveReport report = rod.EquilibrateNearby(load());
     outcome->iterations += report.iterations;
     if (!report.converged) return false;
@@ -165,7 +165,7 @@ void CableSimulation::Impl::PayOut(StepOutcome* outcome) {
   rod.SetConfiguration(shape);
   rod.SetClamps(now.a.X, now.b.X);
   TakePositions();
-  contact.Search(positions, now.obstacles);
+  contact.Search(now.a.X, positions, now.obstacles);
 }
 
 // As if the cable had followed clamps and bodies from equilibrium to equilibrium: a clamp that
@@ -192,7 +192,7 @@ void CableSimulation::Impl::SetOut(const Surroundings& start, StepOutcome* outco
       bodies.push_back(Motion::Resting(After(body, time)));
       way += way_to(along * body.X, bodies.back().X);
     }
-    contact.Search(positions, bodies);
+    contact.Search(a, positions, bodies);
     moved.SetConfiguration(poses);
     moved.SetClamps(a, b);
     const rod::SolveReport report = moved.EquilibrateNearby(load());

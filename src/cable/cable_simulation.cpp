@@ -139,12 +139,14 @@ CablePosture CableSimulation::posture() const {
   posture.nodes.reserve(static_cast<std::size_t>(impl_->model.elements) + 1);
   for (int i = 0; i <= impl_->model.elements; ++i)
     posture.nodes.push_back(ToEigen(impl_->rod.position(i)));
+  posture.a = impl_->now.a.X;
   posture.obstacles = impl_->now.obstacles;
   return posture;
 }
 
 double CableSimulation::Clearance(const CablePosture& posture) {
-  return impl_->nearest.Distance(posture.nodes, posture.obstacles) - 0.5 * impl_->model.diameter;
+  return impl_->nearest.Distance(posture.a, posture.nodes, posture.obstacles) -
+         0.5 * impl_->model.diameter;
 }
 
 CableReport CableSimulation::ReportForces() const {

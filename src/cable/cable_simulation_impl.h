@@ -42,7 +42,7 @@ struct CableSimulation::Impl {
   /// Looks for contact where the cable is about to be.
   void SearchContact(double dt, const Surroundings& then) {
     rod.Predict(dt, then.a.X, then.b.X, &positions);
-    contact.Search(positions, then.obstacles);
+    contact.Search(then.a.X, positions, then.obstacles);
   }
   /// A whole step has converged.
   void Accept(const Surroundings& then) {

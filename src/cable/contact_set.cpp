@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "cosserat_cable/math/small_eigen.h"
 
@@ -15,9 +14,6 @@ namespace {
 constexpr double kMargin = 2e-3;  // [m]
 // How far a search looks where it must look at all; bounds what the next steps can skip.
 constexpr double kSearchReach = 0.1;  // [m]
-// A cable that is so much farther away than a surface is taken into a step needs no look for the
-// next steps.
-constexpr double kFar = 2e-2;  // [m]
 // The distance of an element without sites.
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -50,7 +46,10 @@ std::vector<int> FirstSites(const std::vector<ContactSite>& sites) {
 }
 
 ContactSet::ContactSet(const CableModel& model, std::vector<const Body*> bodies)
-    : radius_(0.5 * model.diameter), law_(model.contact), bodies_(std::move(bodies)) {
+    : radius_(0.5 * model.diameter),
+      law_(model.contact),
+      bodies_(std::move(bodies)),
+      approaches_(bodies_) {
   if (!bodies_.empty()) sites_ = PlaceContactSites(model);
   first_sites_ = FirstSites(sites_);
   trackers_.resize(sites_.size() * bodies_.size());
@@ -61,14 +60,18 @@ ContactSet::ContactSet(const CableModel& model, std::vector<const Body*> bodies)
   planes_.reserve(trackers_.size());
 }
 
-bool ContactSet::OutOfReach(std::size_t body, double half) {
+bool ContactSet::OutOfReach(std::size_t body) {
   const double needed = radius_ + kMargin;
-  const bool far = bodies_[body]->IsBeyond(needed + half + kFar, nodes_B_);
-  if (!far && !bodies_[body]->IsBeyond(needed + half, nodes_B_)) return false;
-  const std::size_t first = body * elements();
-  for (std::size_t e = 0; e < elements(); ++e)
-    if (known_[first + e]) Forget(body, e);
-  if (far) watches_[body].SetAll(nodes_B_, needed + kFar);
+  const double watched = watches_[body].Look(nodes_B_);
+  // What elements know holds for a body as it is turned.
+  double at_least = bodies_[body]->axis() < 0 ? watched : -kNever;
+  if (at_least <= needed) {
+    at_least = bodies_[body]->LowerBoundTurned(nodes_B_) - 0.5 * nodes_B_.LongestStep();
+    if (at_least <= needed) return watched > needed;
+    for (std::size_t e = 0; e < elements(); ++e)
+      if (known_[body * elements() + e]) Forget(body, e);
+  }
+  approaches_.Set(body, at_least);
   return true;
 }
 
@@ -117,24 +120,23 @@ void ContactSet::SearchSites(const Place& place, std::size_t element, const Eige
   watches_[place.body].Set(element, left_B, right_B, nearest);
 }
 
-void ContactSet::Search(const std::vector<Eigen::Vector3d>& nodes_W,
+void ContactSet::Search(const Pose& X_WC, const std::vector<Eigen::Vector3d>& nodes_W,
                         const std::vector<Motion>& bodies_W) {
   planes_.clear();
   searched_.clear();
   if (bodies_.empty()) return;
   const double needed = radius_ + kMargin;
   nodes_W_.Assign(nodes_W);
-  std::optional<double> half;
+  approaches_.Move(X_WC, nodes_W_, bodies_W);
   for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    if (approaches_.at_least(b) > needed) continue;
     const Motion& motion = bodies_W[b];
     nodes_B_.Assign(nodes_W_, motion.X);
-    const std::vector<std::size_t>& near = watches_[b].Within(needed, nodes_B_);
-    if (near.empty()) continue;
-    if (!half) half = 0.5 * nodes_W_.LongestStep();
-    if (OutOfReach(b, *half)) continue;
+    if (OutOfReach(b)) continue;
     const Eigen::Matrix3d R_WB = motion.X.q.toRotationMatrix();
     const Place place = {b, motion, R_WB, R_WB * motion.omega};
-    for (const std::size_t e : near) {
+    for (std::size_t e = 0; e < elements(); ++e) {
+      if (!(watches_[b].at_least(e) <= needed)) continue;
       const Eigen::Vector3d left_B = nodes_B_[e], right_B = nodes_B_[e + 1];
       if (!OutOfReach(b, e, left_B, right_B)) SearchSites(place, e, left_B, right_B);
     }
@@ -154,6 +156,7 @@ void ContactSet::Accept() {
 void ContactSet::Reset() {
   std::fill(trackers_.begin(), trackers_.end(), ContactTracker());
   std::fill(known_.begin(), known_.end(), false);
+  approaches_ = Approaches(bodies_);
   for (ElementWatches& watches : watches_) {
     watches = ElementWatches(elements());
     for (std::size_t e = 0; e < elements(); ++e)

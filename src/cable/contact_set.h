@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "approaches.h"
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/contact/tracker.h"
 #include "cosserat_cable/rod/load.h"
@@ -34,8 +35,9 @@ class ContactSet : public rod::Load {
   ContactSet(const CableModel& model, std::vector<const Body*> bodies);
 
   /// Looks for what is near the centreline given by its nodes [m], the bodies being as in
-  /// `bodies_W`. Remembers nothing until Accept.
-  void Search(const std::vector<Eigen::Vector3d>& nodes_W, const std::vector<Motion>& bodies_W);
+  /// `bodies_W`. Remembers no side until Accept. `X_WC`: see Approaches::Move.
+  void Search(const Pose& X_WC, const std::vector<Eigen::Vector3d>& nodes_W,
+              const std::vector<Motion>& bodies_W);
   /// The step ended: what Search found becomes memory.
   void Accept();
   /// Forgets every side, as for a cable that is put somewhere else.
@@ -74,9 +76,9 @@ class ContactSet : public rod::Load {
   bool HasSites(std::size_t element) const {
     return first_sites_[element] != first_sites_[element + 1];
   }
-  /// True where the whole cable is out of reach of the body by the simplest of bounds; updates the
-  /// watches. `half`: of the longest element [m].
-  bool OutOfReach(std::size_t body, double half);
+  /// True where the whole cable, at nodes_B_, is out of reach of the body by the simplest of
+  /// bounds.
+  bool OutOfReach(std::size_t body);
   /// True where no site of the element can be within the radius and the margin of the body; updates
   /// its watch.
   bool OutOfReach(std::size_t body, std::size_t element, const Eigen::Vector3d& left_B,
@@ -93,7 +95,8 @@ class ContactSet : public rod::Load {
   std::vector<int> first_sites_;
   std::vector<ContactTracker> trackers_;  // body-major
   std::vector<Found> found_;              // likewise, of the last search
-  std::vector<ElementWatches> watches_;   // by body
+  Approaches approaches_;
+  std::vector<ElementWatches> watches_;  // by body
   std::vector<char>
       known_;  // body-major, by element: whether its sites' trackers remember anything
 

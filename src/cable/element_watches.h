@@ -20,20 +20,15 @@ class ElementWatches {
   /// `distance` [m]: a lower bound with the element's ends at `left_B`, `right_B` [m].
   void Set(std::size_t element, const Eigen::Vector3d& left_B, const Eigen::Vector3d& right_B,
            double distance);
-  /// The same `distance` for every element that has not been given the distance of one that never
-  /// comes near (+infinity).
-  void SetAll(const PointRows& nodes_B, double distance);
   /// Nothing is known of the element any more.
   void Forget(std::size_t element) { Row(kDistance)[element] = -kInfinity; }
   /// The lower bound given last [m]; -infinity: none.
   double distance(std::size_t element) const { return Row(kDistance)[element]; }
 
-  /// A lower bound of the distance [m] with the ends where they are now.
-  double DistanceAt(std::size_t element, const Eigen::Vector3d& left_B,
-                    const Eigen::Vector3d& right_B) const;
-  /// The elements that are not farther than `distance` [m] by their bounds. Valid until asked
-  /// again.
-  const std::vector<std::size_t>& Within(double distance, const PointRows& nodes_B);
+  /// Takes the nodes to where they are now, and returns the smallest bound of all elements [m].
+  double Look(const PointRows& nodes_B);
+  /// The element's bound by the last Look [m].
+  double at_least(std::size_t element) const { return at_least_[element]; }
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -45,8 +40,7 @@ class ElementWatches {
 
   std::size_t elements_, stride_;
   std::vector<double> data_;
-  std::vector<double> excess_;       // scratch, of the last question
-  std::vector<std::size_t> within_;  // its answer
+  std::vector<double> at_least_;
 };
 
 }  // namespace cosserat_cable

@@ -12,7 +12,20 @@ namespace cosserat_cable {
 struct Body::Impl {
   std::vector<std::unique_ptr<Surface>> surfaces;
   Eigen::AlignedBox3d bounds;
+  int axis = -1;
   int triangle_count = 0;
+
+  /// The smallest of the surfaces' `distance`; -infinity where that is none.
+  template <typename Distance>
+  double LowerBound(const Distance& distance) const {
+    double bound = std::numeric_limits<double>::infinity();
+    for (const auto& surface : surfaces) {
+      const double at_least = distance(surface->envelope());
+      if (at_least == 0) return -std::numeric_limits<double>::infinity();
+      bound = std::min(bound, at_least);
+    }
+    return bound;
+  }
 
   template <typename Primitive>
   void Add(const Primitive& primitive, const Pose& X_BS, int index, MeshStore*) {
@@ -36,6 +49,9 @@ Body::Body(const std::vector<Shape>& shapes, MeshStore* store) : impl_(std::make
         shapes[i].geometry);
   }
   for (const auto& surface : impl_->surfaces) impl_->bounds.extend(surface->envelope().box());
+  if (!impl_->surfaces.empty()) impl_->axis = impl_->surfaces.front()->envelope().axis();
+  for (const auto& surface : impl_->surfaces)
+    if (surface->envelope().axis() != impl_->axis) impl_->axis = -1;
 }
 
 Body::~Body() = default;
@@ -55,22 +71,16 @@ Clearance Body::Query(const Eigen::Vector3d& p_B, double reach) const {
 }
 
 double Body::LowerBound(const Eigen::Vector3d& p_B) const {
-  double bound = std::numeric_limits<double>::infinity();
-  if (!p_B.allFinite()) return bound;
-  for (const auto& surface : impl_->surfaces) {
-    const double at_least = surface->envelope().Distance(p_B);
-    if (at_least == 0) return -std::numeric_limits<double>::infinity();
-    bound = std::min(bound, at_least);
-  }
-  return bound;
+  if (!p_B.allFinite()) return std::numeric_limits<double>::infinity();
+  return impl_->LowerBound([&](const Envelope& envelope) { return envelope.Distance(p_B); });
 }
 
-bool Body::IsBeyond(double margin, const PointRows& points_B) const {
-  return std::all_of(impl_->surfaces.begin(), impl_->surfaces.end(), [&](const auto& surface) {
-    return surface->envelope().IsBeyond(margin, points_B);
-  });
+double Body::LowerBoundTurned(const PointRows& points_B) const {
+  return impl_->LowerBound(
+      [&](const Envelope& envelope) { return envelope.DistanceTurned(points_B); });
 }
 
+int Body::axis() const { return impl_->axis; }
 const Eigen::AlignedBox3d& Body::bounds() const { return impl_->bounds; }
 int Body::triangle_count() const { return impl_->triangle_count; }
 

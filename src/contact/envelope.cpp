@@ -55,35 +55,44 @@ Radii RadiiAbout(int axis, const TriangleMesh& mesh) {
   return radii;
 }
 
-/// What a point must exceed to be beyond: in the coordinates along the axis and across it, squares
-/// of lengths where the name says so.
-struct Limits {
-  double low[3], high[3];  // of the box, the axis first
-  double margin_squared, outer_squared, inner_squared;
+double Smallest(const Lanes& lanes) { return std::min({lanes[0], lanes[1], lanes[2], lanes[3]}); }
+
+// How far beyond an interval.
+Lanes Beyond(double low, double high, const Lanes& p) {
+  return Max(Max(Lanes(low) - p, p - Lanes(high)), Lanes(0.0));
+}
+
+COSSERAT_CABLE_KERNEL
+double SmallestDistance(const Eigen::AlignedBox3d& box, const double* const* rows,
+                        std::size_t count) {
+  Lanes smallest(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < count; i += Lanes::kCount) {
+    Lanes square(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      const Lanes outside = Beyond(box.min()[axis], box.max()[axis], LoadLanes(rows[axis] + i));
+      square += outside * outside;
+    }
+    smallest = Min(smallest, square);
+  }
+  return std::sqrt(Smallest(smallest));
+}
+
+struct HollowCylinder {
+  double low, high, inner, outer;  // ends and radii
 };
 
-// Above zero where a point of the rows (that along the axis first) is not beyond.
+// Rows: the coordinate along the axis, and the other two.
 COSSERAT_CABLE_KERNEL
-double Within(const Limits& limits, const double* along, const double* u, const double* v,
-              std::size_t count) {
-  const double* rows[3] = {along, u, v};
-  Lanes worst(-1.0);
+double SmallestDistance(const HollowCylinder& cylinder, const double* along, const double* u,
+                        const double* v, std::size_t count) {
+  Lanes smallest(std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < count; i += Lanes::kCount) {
-    Lanes outside[3], square[3];
-    for (int k = 0; k < 3; ++k) {
-      const Lanes p = LoadLanes(rows[k] + i);
-      outside[k] = Max(Max(Lanes(limits.low[k]) - p, p - Lanes(limits.high[k])), Lanes(0.0));
-      square[k] = p * p;
-    }
-    const Lanes radius = square[1] + square[2];
-    const Lanes box = outside[0] * outside[0] + outside[1] * outside[1] + outside[2] * outside[2];
-    // Beyond by any of the bounds is beyond.
-    Lanes within = Lanes(limits.margin_squared) - box;
-    within = Min(within, Lanes(limits.outer_squared) - radius);
-    within = Min(within, radius - Lanes(limits.inner_squared));
-    worst = Max(worst, within);
+    const Lanes x = LoadLanes(u + i), y = LoadLanes(v + i);
+    const Lanes radial = Beyond(cylinder.inner, cylinder.outer, Sqrt(x * x + y * y));
+    const Lanes axial = Beyond(cylinder.low, cylinder.high, LoadLanes(along + i));
+    smallest = Min(smallest, radial * radial + axial * axial);
   }
-  return std::max({worst[0], worst[1], worst[2], worst[3]});
+  return std::sqrt(Smallest(smallest));
 }
 
 }  // namespace
@@ -101,13 +110,14 @@ Envelope::Envelope(const TriangleMesh& mesh) {
     const Radii radii = RadiiAbout(axis, mesh);
     // No surface within the inner radius, which reaches to infinity: no solid either.
     const double volume =
-        (radii.outer * radii.outer - radii.inner * radii.inner) * box_.sizes()[axis];
+        M_PI * (radii.outer * radii.outer - radii.inner * radii.inner) * box_.sizes()[axis];
     if (volume >= least_volume) continue;
     least_volume = volume;
     axis_ = axis;
     inner_ = radii.inner;
     outer_ = radii.outer;
   }
+  turns_ = least_volume < box_.volume();
 }
 
 double Envelope::Distance(const Eigen::Vector3d& p) const {
@@ -117,19 +127,11 @@ double Envelope::Distance(const Eigen::Vector3d& p) const {
   return std::sqrt(std::max(radial * radial + along * along, box_.squaredExteriorDistance(p)));
 }
 
-bool Envelope::IsBeyond(double margin, const PointRows& points) const {
-  Limits limits;
-  for (int k = 0; k < 3; ++k) {
-    limits.low[k] = box_.min()[(axis_ + k) % 3];
-    limits.high[k] = box_.max()[(axis_ + k) % 3];
-  }
-  limits.margin_squared = margin * margin;
-  limits.outer_squared = (outer_ + margin) * (outer_ + margin);
-  // Nothing is nearer to the axis than that where there is no room for it.
-  limits.inner_squared = inner_ > margin ? (inner_ - margin) * (inner_ - margin) : -1;
-  const double* rows[3] = {points.x(), points.y(), points.z()};
-  return Within(limits, rows[axis_], rows[(axis_ + 1) % 3], rows[(axis_ + 2) % 3],
-                points.padded_size()) < 0;
+double Envelope::DistanceTurned(const PointRows& points) const {
+  const double* const rows[3] = {points.x(), points.y(), points.z()};
+  if (!turns_) return SmallestDistance(box_, rows, points.padded_size());
+  return SmallestDistance({box_.min()[axis_], box_.max()[axis_], inner_, outer_}, rows[axis_],
+                          rows[(axis_ + 1) % 3], rows[(axis_ + 2) % 3], points.padded_size());
 }
 
 }  // namespace cosserat_cable

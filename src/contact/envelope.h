@@ -19,14 +19,18 @@ class Envelope {
   explicit Envelope(const TriangleMesh& mesh);
 
   const Eigen::AlignedBox3d& box() const { return box_; }
+  /// The cylinder's, where that is smaller than the box; else -1.
+  int axis() const { return turns_ ? axis_ : -1; }
   /// Not more than the distance from `p` [m] to the solid; above zero only outside of it.
   double Distance(const Eigen::Vector3d& p) const;
-  /// True where all points are farther than `margin` >= 0 [m] from the solid by that bound.
-  bool IsBeyond(double margin, const PointRows& points) const;
+  /// Such a bound for all points at once, which holds however they turn about axis(), where there is
+  /// one.
+  double DistanceTurned(const PointRows& points) const;
 
  private:
   Eigen::AlignedBox3d box_;
   int axis_ = 2;
+  bool turns_ = false;
   double inner_ = 0, outer_ = 0;  // radii [m]
 };
 

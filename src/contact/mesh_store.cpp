@@ -31,12 +31,17 @@ MeshParts MakeMeshParts(const TriangleMesh& mesh) {
 }
 
 const MeshParts& MeshStore::Impl::PartsOf(const TriangleMesh& mesh) {
+  Entry& entry = EntryOf(mesh);
+  std::call_once(entry.made, [&] { entry.parts = MakeMeshParts(mesh); });
+  return entry.parts;
+}
+
+MeshStore::Impl::Entry& MeshStore::Impl::EntryOf(const TriangleMesh& mesh) {
+  const std::lock_guard<std::mutex> lock(mutex);
   const auto known = std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) {
     return entry.mesh.vertices == mesh.vertices && entry.mesh.triangles == mesh.triangles;
   });
-  if (known != entries.end()) return known->parts;
-  entries.push_back({mesh, MakeMeshParts(mesh)});
-  return entries.back().parts;
+  return known != entries.end() ? *known : entries.emplace_back(mesh);
 }
 
 MeshStore::MeshStore() : impl_(std::make_unique<Impl>()) {}

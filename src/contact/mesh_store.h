@@ -1,7 +1,9 @@
 // Meshes made ready for queries, each once however many links show it.
 #pragma once
 
+#include <list>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 #include "cosserat_cable/contact/body.h"
@@ -19,10 +21,15 @@ struct MeshStore::Impl {
   const MeshParts& PartsOf(const TriangleMesh& mesh);
 
   struct Entry {
+    explicit Entry(const TriangleMesh& m) : mesh(m) {}
     TriangleMesh mesh;
+    std::once_flag made;
     MeshParts parts;
   };
-  std::vector<Entry> entries;
+  Entry& EntryOf(const TriangleMesh& mesh);
+
+  std::mutex mutex;          // of the list
+  std::list<Entry> entries;  // which stay where they are
 };
 
 }  // namespace cosserat_cable

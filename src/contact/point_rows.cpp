@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "cosserat_cable/math/kernel.h"
 #include "cosserat_cable/math/lane_rows.h"
@@ -26,19 +27,44 @@ void Transform(std::size_t stride, const double* W, const double* R, const doubl
   }
 }
 
-COSSERAT_CABLE_KERNEL
-double LongestStepOf(std::size_t stride, std::size_t size, const double* rows) {
-  Lanes longest(0.0);
-  for (std::size_t i = 0; i < size; i += kStep) {
+// The largest length of several vectors, of which `component(axis, i)` tells some from the i-th on;
+// infinite where one is not finite.
+template <class Component>
+double Longest(std::size_t count, const Component& component) {
+  Lanes longest(0.0), sum(0.0);
+  for (std::size_t i = 0; i < count; i += kStep) {
     Lanes square(0.0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double* row = rows + axis * stride + i;
-      const Lanes step = LoadLanes(row + 1) - LoadLanes(row);
-      square += step * step;
+      const Lanes c = component(axis, i);
+      square += c * c;
     }
     longest = Max(longest, square);
+    sum += square;  // a maximum may lose a NaN, a sum does not
   }
+  if (!std::isfinite(sum[0] + sum[1] + sum[2] + sum[3]))
+    return std::numeric_limits<double>::infinity();
   return std::sqrt(std::max({longest[0], longest[1], longest[2], longest[3]}));
+}
+
+COSSERAT_CABLE_KERNEL
+double LongestStepOf(std::size_t stride, std::size_t size, const double* rows) {
+  return Longest(size, [&](std::size_t axis, std::size_t i) {
+    const double* row = rows + axis * stride + i;
+    return LoadLanes(row + 1) - LoadLanes(row);
+  });
+}
+
+COSSERAT_CABLE_KERNEL
+double LongestWayOf(std::size_t stride, const double* from, const double* to) {
+  return Longest(stride, [&](std::size_t axis, std::size_t i) {
+    return LoadLanes(to + axis * stride + i) - LoadLanes(from + axis * stride + i);
+  });
+}
+
+COSSERAT_CABLE_KERNEL
+double RadiusOf(std::size_t stride, const double* rows) {
+  return Longest(
+      stride, [&](std::size_t axis, std::size_t i) { return LoadLanes(rows + axis * stride + i); });
 }
 
 }  // namespace
@@ -68,5 +94,12 @@ void PointRows::Assign(const PointRows& points_W, const Pose& X_WB) {
 }
 
 double PointRows::LongestStep() const { return LongestStepOf(stride_, size_, data_.data()); }
+
+double PointRows::Radius() const { return RadiusOf(stride_, data_.data()); }
+
+double PointRows::LongestWay(const PointRows& before) const {
+  if (before.size_ != size_) return std::numeric_limits<double>::infinity();
+  return LongestWayOf(stride_, before.data_.data(), data_.data());
+}
 
 }  // namespace cosserat_cable

@@ -17,4 +17,15 @@ Motion Motion::operator*(const Motion& BC) const {
   return AC;
 }
 
+Motion Motion::operator*(const Pose& X_BC) const {
+  const Eigen::Quaterniond q_CB = X_BC.q.conjugate();
+  Motion AC;
+  AC.X = X * X_BC;
+  AC.v = v + X.q * omega.cross(X_BC.p);
+  AC.a = a + X.q * (alpha.cross(X_BC.p) + omega.cross(omega.cross(X_BC.p)));
+  AC.omega = q_CB * omega;
+  AC.alpha = q_CB * alpha;
+  return AC;
+}
+
 }  // namespace cosserat_cable

@@ -32,6 +32,9 @@ std::int64_t Period(double rate) {
   return rate > 0 ? static_cast<std::int64_t>(std::llround(1e9 / rate)) : 0;
 }
 
+// As EngineOptions says it, in TBB's terms.
+int Concurrency(int threads) { return threads > 0 ? threads : oneapi::tbb::task_arena::automatic; }
+
 }  // namespace
 
 /// Cables that go through one kernel together.
@@ -42,7 +45,7 @@ struct CableEngine::Group {
 
 /// Threads, or the caller's own where there is one.
 struct CableEngine::Threads {
-  explicit Threads(int count) : arena(count > 0 ? count : oneapi::tbb::task_arena::automatic) {}
+  explicit Threads(int count) : arena(Concurrency(count)) {}
   oneapi::tbb::task_arena arena;
 };
 
@@ -81,12 +84,20 @@ std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables) {
   return {links.begin(), links.end()};
 }
 
-BodyMap MakeBodies(const VehicleModel& vehicle) {
+BodyMap MakeBodies(const VehicleModel& vehicle, int threads) {
   BodyMap bodies;
   MeshStore store;
-  for (const auto& [link, shapes] : vehicle.collision) {
-    if (!shapes.empty()) bodies[link] = std::make_unique<Body>(shapes, &store);
-  }
+  oneapi::tbb::task_arena arena(Concurrency(threads));
+  arena.execute([&] {
+    oneapi::tbb::task_group making;
+    for (const auto& [link, shapes] : vehicle.collision) {
+      if (shapes.empty()) continue;
+      making.run([&store, &shapes = shapes, &body = bodies[link]] {
+        body = std::make_unique<Body>(shapes, &store);
+      });
+    }
+    making.wait();
+  });
   return bodies;
 }
 
@@ -117,7 +128,7 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
   }
   std::vector<CableSimulation*> simulations;
   for (const auto& cable : cables_) simulations.push_back(cable->simulation());
-  fleet_ = std::make_unique<CableFleet>(simulations);
+  fleet_ = std::make_unique<CableFleet>(simulations, threads_->arena.max_concurrency());
   groups_.resize(fleet_->group_count());
   for (std::size_t g = 0; g < groups_.size(); ++g) {
     groups_[g].then.resize(fleet_->members(g).size());
@@ -127,11 +138,9 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
 
 CableEngine::~CableEngine() = default;
 
-std::size_t CableEngine::FrameIndex(const std::string& link) {
-  const auto found = std::find(frames_.begin(), frames_.end(), link);
-  if (found != frames_.end()) return static_cast<std::size_t>(found - frames_.begin());
-  frames_.push_back(link);
-  return frames_.size() - 1;
+std::size_t CableEngine::FrameIndex(const std::string& link) const {
+  const std::vector<std::string>& all = links_.links();
+  return static_cast<std::size_t>(std::find(all.begin(), all.end(), link) - all.begin());
 }
 
 void CableEngine::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
@@ -149,11 +158,12 @@ void CableEngine::Follow(std::int64_t time, Instant* instant) {
   instant->time = time;
   instant->telemetry = Due(telemetry_period_, time);
   instant->markers = send_markers_ && Due(marker_period_, time);
-  instant->frames.resize(frames_.size());
-  instant->in_gap.resize(frames_.size());
-  for (std::size_t i = 0; i < frames_.size(); ++i) {
-    instant->frames[i] = links_.Follow(frames_[i], time);
-    instant->in_gap[i] = instant->telemetry && links_.InGap(frames_[i], time);
+  const std::vector<std::string>& links = links_.links();
+  instant->frames.resize(links.size());
+  instant->in_gap.resize(links.size());
+  for (std::size_t i = 0; i < links.size(); ++i) {
+    instant->frames[i] = links_.Follow(i, time);
+    instant->in_gap[i] = instant->telemetry && links_.InGap(links[i], time);
   }
 }
 
@@ -196,6 +206,7 @@ bool CableEngine::Start(OutputSink* sink) {
                   links_.world() + "'");
   for (const auto& cable : cables_) cable->Tell(rest, links_.world());
   CollectTold();
+  MeasureClearances();
   Deliver(sink);
   return true;
 }
@@ -212,25 +223,37 @@ void CableEngine::Advance(OutputSink* sink) {
   if (!started_ && !Start(sink)) return;
   std::int64_t begin = 0, ready = 0;
   if (!links_.Range(&begin, &ready)) return;
-  // While the cables sway through a block, the motion of the next is followed, and what they told
-  // of the last one is delivered.
   std::vector<Instant> block, next;
   FollowBlock(now_, ready, &next);
   while (!next.empty()) {
     std::swap(block, next);
-    threads_->arena.execute([&] {
-      oneapi::tbb::task_group tasks;
-      tasks.run([&] { Deliver(sink); });
-      for (std::size_t g = 0; g < groups_.size(); ++g) tasks.run([&, g] { Sway(g, block); });
-      tasks.run_and_wait([&] { FollowBlock(block.back().time, ready, &next); });
-    });
+    SwayThrough(block, ready, sink, &next);
     now_ = block.back().time;
     const std::uint64_t drops = steps_ / kDropInterval;
     steps_ += block.size();
     if (steps_ / kDropInterval != drops) links_.DropBefore(now_);
     CollectTold();
   }
+  MeasureClearances();
   Deliver(sink);
+}
+
+// While the cables sway through a block, the motion of the next is followed, the clearances of the
+// last one are measured, and what was told of the one before is delivered.
+void CableEngine::SwayThrough(const std::vector<Instant>& block, std::int64_t ready,
+                              OutputSink* sink, std::vector<Instant>* next) {
+  threads_->arena.execute([&] {
+    oneapi::tbb::task_group tasks;
+    // What takes longest goes first: other threads begin with the first of these, this one with the
+    // last.
+    const std::size_t last = groups_.size() - 1;
+    for (std::size_t g = 0; g < last; ++g) tasks.run([&, g] { Sway(g, block); });
+    tasks.run([&] { Deliver(sink); });
+    for (std::size_t c = 0; c < cables_.size(); ++c) tasks.run([&, c] { MeasureClearances(c); });
+    tasks.run([&] { Sway(last, block); });
+    tasks.run_and_wait([&] { FollowBlock(block.back().time, ready, next); });
+  });
+  TakeMeasured();
 }
 
 void CableEngine::Sway(std::size_t group, const std::vector<Instant>& block) {
@@ -255,25 +278,43 @@ bool CableEngine::Due(std::int64_t period, std::int64_t time) const {
 
 // In the order of time, and of the cables: whatever thread was first.
 void CableEngine::CollectTold() {
-  // A cable's clearances are asked for one after the other, while it stands still: those of the
-  // cables of one kernel are shared out among the threads.
-  threads_->arena.execute([&] {
-    oneapi::tbb::task_group measuring;
-    for (const auto& cable : cables_) measuring.run([c = cable.get()] { c->MeasureClearances(); });
-    measuring.wait();
-  });
   for (const auto& cable : cables_) {
     std::vector<Told> told = cable->TakeTold();
-    std::move(told.begin(), told.end(), std::back_inserter(told_));
+    std::move(told.begin(), told.end(), std::back_inserter(unmeasured_));
   }
-  std::stable_sort(told_.begin(), told_.end(), [](const Told& a, const Told& b) {
+  std::stable_sort(unmeasured_.begin(), unmeasured_.end(), [](const Told& a, const Told& b) {
     return std::tie(a.time, a.cable) < std::tie(b.time, b.cable);
   });
   for (const auto& cable : cables_) {
     std::vector<std::string> news = cable->TakeNews();
     std::move(news.begin(), news.end(), std::back_inserter(news_));
   }
-  if (!Due(diagnostics_period_, now_)) return;
+  if (Due(diagnostics_period_, now_)) TellDiagnostics();
+}
+
+// A cable's are asked for one after the other.
+void CableEngine::MeasureClearances(std::size_t cable) {
+  for (Told& told : unmeasured_)
+    if (told.cable == cable) cables_[cable]->MeasureClearance(&told);
+}
+
+void CableEngine::MeasureClearances() {
+  threads_->arena.execute([&] {
+    oneapi::tbb::task_group tasks;
+    for (std::size_t c = 0; c < cables_.size(); ++c) tasks.run([&, c] { MeasureClearances(c); });
+    tasks.wait();
+  });
+  TakeMeasured();
+}
+
+void CableEngine::TakeMeasured() {
+  std::move(unmeasured_.begin(), unmeasured_.end(), std::back_inserter(told_));
+  unmeasured_.clear();
+}
+
+// Of all that was told until now.
+void CableEngine::TellDiagnostics() {
+  MeasureClearances();
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ToRosTime(now_);
   message.status.push_back(InputDiagnostics(links_, resets_));

@@ -165,7 +165,8 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
     }
   }
 
-  if (vehicle_problems.empty()) inputs.bodies = MakeBodies(inputs.vehicle);
+  if (problems->empty() && vehicle_problems.empty())
+    inputs.bodies = MakeBodies(inputs.vehicle, options.threads);
 
   Problems bag_problems;
   inputs.bags = std::make_unique<BagReader>(paths.bags, &bag_problems);

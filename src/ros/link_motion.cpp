@@ -84,6 +84,7 @@ void LinkMotion::UpdateTree() {
   world_ = options_.world_frame;
   if (world_.empty() && roots.size() == 1) world_ = *roots.begin();
   for (auto& [child, edge] : edges_) edge.is_followed = relevant_.count(child) > 0;
+  followed_.assign(links_.size(), {});
 }
 
 LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std::string& child,
@@ -287,9 +288,12 @@ Motion LinkMotion::Evaluate(const std::string& link, std::int64_t time) const {
   return tree_.Evaluate(world_, link, Seconds(time));
 }
 
-Motion LinkMotion::Follow(const std::string& link, std::int64_t time) {
-  if (link == world_) return Motion();
-  return tree_.Follow(world_, link, Seconds(time));
+Motion LinkMotion::Follow(std::size_t i, std::int64_t time) {
+  if (!followed_[i]) {
+    if (links_[i] == world_) return Motion();
+    followed_[i] = tree_.FindLink(world_, links_[i]);
+  }
+  return tree_.Follow(followed_[i], Seconds(time));
 }
 
 bool LinkMotion::InGap(const std::string& link, std::int64_t time) const {

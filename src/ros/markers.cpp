@@ -70,19 +70,19 @@ std::vector<Ring> AllRings(const CableSimulation& cable, double curvature_scale)
   const std::vector<Pose>& nodes = cable.nodes();
   const std::size_t elements = curvatures.size();
   const std::size_t per_element = (kMinSegments + elements - 1) / elements;
-  const auto ring = [&](const Pose& X_WS, double x) -> Ring {
-    return {X_WS, CurvatureAt(curvatures, x) / curvature_scale};
-  };
   std::vector<Ring> rings;
   rings.reserve(elements * per_element + 1);
+  const auto add = [&](const Pose& X_WS, double u) {
+    rings.push_back({X_WS, CurvatureAt(curvatures, u) / curvature_scale});
+  };
   for (std::size_t e = 0; e < elements; ++e) {
     const rod::ElementCurve curve(nodes[e], nodes[e + 1]);
-    for (std::size_t i = 0; i < per_element; ++i) {
-      const double t = static_cast<double>(i) / static_cast<double>(per_element);
-      rings.push_back(ring(curve.At(t), static_cast<double>(e) + t));
+    for (std::size_t k = 0; k < per_element; ++k) {
+      const double t = static_cast<double>(k) / static_cast<double>(per_element);
+      add(curve.At(t), static_cast<double>(e) + t);
     }
   }
-  rings.push_back(ring(nodes[elements], static_cast<double>(elements)));
+  add(nodes.back(), static_cast<double>(elements));
   return rings;
 }
 
@@ -199,8 +199,7 @@ Marker MakeName(const CableSimulation& cable, const Pose& X_RW, std::int64_t tim
   text.scale.z = kTextHeight;
   // Dark enough for a light background, light enough for a dark one.
   text.color = Color({0.35, 0.38, 0.45});
-  const Pose apex = PoseAt(cable, model.apex_s);
-  text.pose.position = ToPoint(X_RW * apex.p);
+  text.pose.position = ToPoint(X_RW * PositionAt(cable, model.apex_s));
   text.pose.position.z += model.diameter + kTextHeight;
   return text;
 }
@@ -225,11 +224,11 @@ Eigen::Vector3d ViridisColor(double x) {
   return low + (u - static_cast<double>(i)) * (high - low);
 }
 
-Pose PoseAt(const CableSimulation& cable, double s) {
+Eigen::Vector3d PositionAt(const CableSimulation& cable, double s) {
   const int elements = cable.model().elements;
   const double h = cable.model().length / elements;
   const int i = std::clamp(static_cast<int>(s / h), 0, elements - 1);
-  return rod::ElementCurve(cable.node(i), cable.node(i + 1)).At(s / h - i);
+  return rod::ElementCurve(cable.node(i), cable.node(i + 1)).At(s / h - i).p;
 }
 
 MarkerArray MakeMarkers(const CableSimulation& cable, const Pose& X_WR, std::int64_t time,

@@ -28,8 +28,8 @@ diagnostic_msgs::DiagnosticStatus CableEngine::SwayingCable::Diagnostics() const
 }
 
 void CableEngine::SwayingCable::Surround(const Instant& now) {
-  surroundings_.a = now.frames[frames_.a] * Motion::Resting(model().a.X_LC);
-  surroundings_.b = now.frames[frames_.b] * Motion::Resting(model().b.X_LC);
+  surroundings_.a = now.frames[frames_.a] * model().a.X_LC;
+  surroundings_.b = now.frames[frames_.b] * model().b.X_LC;
   for (std::size_t i = 0; i < frames_.obstacles.size(); ++i)
     surroundings_.obstacles[i] = now.frames[frames_.obstacles[i]];
 }
@@ -80,7 +80,7 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
 }
 
 void CableEngine::SwayingCable::Record(const Instant& now) {
-  const Eigen::Vector3d apex_W = PoseAt(simulation_, model().apex_s).p;
+  const Eigen::Vector3d apex_W = PositionAt(simulation_, model().apex_s);
   history_.Add(now.time, options_.amplitude_frame == AmplitudeFrame::kWorld
                              ? apex_W
                              : now.frames[frames_.reference].X.Inverse() * apex_W);
@@ -118,18 +118,15 @@ bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
   summary_.amplitude_max = std::max(summary_.amplitude_max, message.amplitude);
   summary_.dissipated = message.dissipated;
   summary_.energy_residual = message.energy_residual;
-  unmeasured_.push_back({told_.size(), std::move(posture)});
-  told_.push_back({now.time, index_, std::move(message)});
+  told_.push_back({now.time, index_, std::move(message), std::move(posture)});
   return true;
 }
 
-void CableEngine::SwayingCable::MeasureClearances() {
-  for (const Unmeasured& unmeasured : unmeasured_) {
-    auto& message = std::get<ApexTelemetry>(told_[unmeasured.told].message);
-    message.clearance = simulation_.Clearance(unmeasured.posture);
-    summary_.clearance_min = std::min(summary_.clearance_min, message.clearance);
-  }
-  unmeasured_.clear();
+void CableEngine::SwayingCable::MeasureClearance(Told* told) {
+  auto* message = std::get_if<ApexTelemetry>(&told->message);
+  if (message == nullptr) return;
+  message->clearance = simulation_.Clearance(told->posture);
+  summary_.clearance_min = std::min(summary_.clearance_min, message->clearance);
 }
 
 std::vector<CableEngine::Told> CableEngine::SwayingCable::TakeTold() {

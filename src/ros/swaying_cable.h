@@ -30,6 +30,7 @@ struct CableEngine::Told {
   std::size_t cable;
   std::variant<ApexTelemetry, visualization_msgs::MarkerArray, diagnostic_msgs::DiagnosticArray>
       message;
+  CablePosture posture = {};  // of telemetry whose clearance is still to be measured
 };
 
 class CableEngine::SwayingCable {
@@ -57,8 +58,9 @@ class CableEngine::SwayingCable {
             const std::string& world);
   /// Notes what is due.
   void Tell(const Instant& now, const std::string& world);
-  /// Adds to what was noted what costs most, and what the next step does not need.
-  void MeasureClearances();
+  /// Adds to telemetry what costs most, and what no step needs; in the order in which it was told,
+  /// also while the cable is stepped on.
+  void MeasureClearance(Told* told);
   /// What was noted since this was called last.
   std::vector<Told> TakeTold();
   /// Sentences to be said to the user, each once.
@@ -83,14 +85,7 @@ class CableEngine::SwayingCable {
   std::uint64_t held_ = 0;  // telemetry samples
   CableSummary summary_;
   std::vector<std::string> news_;
-
-  /// Telemetry that lacks its clearance.
-  struct Unmeasured {
-    std::size_t told;  // index
-    CablePosture posture;
-  };
   std::vector<Told> told_;
-  std::vector<Unmeasured> unmeasured_;
 };
 
 }  // namespace cosserat_cable

@@ -138,17 +138,33 @@ Motion MotionTree::Evaluate(const std::string& ancestor, const std::string& fram
 const Motion& MotionTree::FollowBelow(const Frame* top, Frame* frame, double time) {
   Frame::Followed& known = frame->followed;
   if (known.top != top || known.time != time || known.revision != revision_) {
-    const Motion edge = frame->fixed ? Motion::Resting(frame->X_PC) : frame->curve.Follow(time);
-    Frame* parent = frame->parent;
-    known = {top, time, revision_, parent == top ? edge : FollowBelow(top, parent, time) * edge};
+    const auto below = [&](const auto& edge, const Motion& alone) {
+      return frame->parent == top ? alone : FollowBelow(top, frame->parent, time) * edge;
+    };
+    if (frame->fixed) {
+      known.motion = below(frame->X_PC, Motion::Resting(frame->X_PC));
+    } else {
+      const Motion edge = frame->curve.Follow(time);
+      known.motion = below(edge, edge);
+    }
+    known.top = top;
+    known.time = time;
+    known.revision = revision_;
   }
   return known.motion;
 }
 
-Motion MotionTree::Follow(const std::string& ancestor, const std::string& frame, double time) {
+MotionTree::Link MotionTree::FindLink(const std::string& ancestor, const std::string& frame) {
   assert(Connected(ancestor, frame));
-  if (ancestor == frame) return Motion();
-  return FollowBelow(Find(ancestor), &frames_.find(frame)->second, time);
+  Link link;
+  link.top_ = Find(ancestor);
+  link.frame_ = &frames_.find(frame)->second;
+  return link;
+}
+
+Motion MotionTree::Follow(const Link& link, double time) {
+  if (link.frame_ == link.top_) return Motion();
+  return FollowBelow(link.top_, link.frame_, time);
 }
 
 bool MotionTree::InGap(const std::string& ancestor, const std::string& frame, double time) const {

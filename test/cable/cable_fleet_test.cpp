@@ -56,7 +56,7 @@ std::vector<CableSimulation*> Pointers(std::vector<CableSimulation>& cables) {
 TEST(CableFleetTest, StepsAsOneByOne) {
   // m; rounding only. Contact is a discontinuity of curvature, not of force, and amplifies little.
   constexpr double kTolerance = 1e-8;
-  const std::vector<int> elements = {40, 40, 30, 40, 40, 40, 25};  // groups of 4, 1, 1 and 1
+  const std::vector<int> elements = {40, 40, 30, 40, 40, 40, 25};  // groups of 5, 1 and 1
   std::vector<CableSimulation> together = Settled(elements), alone = Settled(elements);
   CableFleet fleet(Pointers(together));
   double force = 0;
@@ -71,6 +71,38 @@ TEST(CableFleetTest, StepsAsOneByOne) {
   EXPECT_GT(force, 0);  // the floor took part
   for (std::size_t k = 0; k < elements.size(); ++k)
     EXPECT_LT((together[k].Report().apex - alone[k].Report().apex).norm(), kTolerance) << k;
+}
+
+TEST(CableFleetTest, GroupsForThreadsChangeNothing) {
+  const std::vector<int> elements(9, 20);
+  std::vector<CableSimulation> one = Settled(elements), two = Settled(elements);
+  CableFleet of_one(Pointers(one)), of_two(Pointers(two), 2);
+  for (int s = 1; s <= 100; ++s) {
+    const Surroundings then = At(s * kDt);
+    const std::vector<const Surroundings*> thens(elements.size(), &then);
+    of_one.Step(kDt, thens);
+    of_two.Step(kDt, thens);
+  }
+  for (std::size_t k = 0; k < elements.size(); ++k)
+    EXPECT_EQ(one[k].Report().apex, two[k].Report().apex) << k;
+}
+
+TEST(CableFleetTest, GroupsAreSharedOutAsFarAsTheyFillAKernel) {
+  const auto sizes = [](std::size_t cables, int threads) {
+    std::vector<CableSimulation> fleet;
+    for (std::size_t k = 0; k < cables; ++k)
+      fleet.emplace_back(Hose(0, 4), std::vector<const Body*>(), kGravity);
+    const CableFleet grouped(Pointers(fleet), threads);
+    std::vector<std::size_t> sizes;
+    for (std::size_t g = 0; g < grouped.group_count(); ++g)
+      sizes.push_back(grouped.members(g).size());
+    return sizes;
+  };
+  using Sizes = std::vector<std::size_t>;
+  EXPECT_EQ(sizes(8, 2), (Sizes{4, 4}));
+  EXPECT_EQ(sizes(8, 16), (Sizes{4, 4}));
+  EXPECT_EQ(sizes(3, 2), (Sizes{3}));
+  EXPECT_EQ(sizes(5, 2), (Sizes{2, 3}));
 }
 
 TEST(CableFleetTest, MixesClampsThatGiveWayWithRigidOnes) {

@@ -64,7 +64,7 @@ class ContactSetTest : public ::testing::Test {
     for (int i = 0; i <= half; ++i) nodes.push_back({h * (i - half), left[0], left[1]});
     for (int i = 1; i <= half; ++i)
       nodes.push_back({0.1 * h * i, right[0], right[1] + (i % 2 ? zigzag_ : 0)});
-    set_.Search(nodes, {Motion()});
+    set_.Search(Pose(), nodes, {Motion()});
     set_.Accept();
     points_ = set_.Points(Placed(nodes));
   }

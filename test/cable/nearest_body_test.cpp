@@ -67,7 +67,7 @@ class Scene {
   }
   void ExpectAgreement(NearestBody* tested) const {
     const double expected = BruteForce();
-    const double found = tested->Distance(nodes, motions);
+    const double found = tested->Distance(Pose(), nodes, motions);
     if (std::isinf(expected)) {
       EXPECT_EQ(found, expected);
     } else {
@@ -75,7 +75,7 @@ class Scene {
     }
   }
 
-  std::vector<Vector3d> nodes;      // in W
+  std::vector<Vector3d> nodes;  // in W
   std::vector<Motion> motions;  // of the bodies
 
  private:

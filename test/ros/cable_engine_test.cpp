@@ -133,7 +133,7 @@ TEST_F(CableEngineTest, SameInputSameBits) {
 }
 
 TEST_F(CableEngineTest, ThreadsChangeNothing) {
-  // Nine cables of two kinds: groups of four, of one, and a failure in the midst of them.
+  // Nine cables of two kinds: groups of up to five, and a failure in the midst of them.
   std::vector<CableModel> cables;
   for (int i = 0; i < 9; ++i) {
     cables.push_back(MakeCable("c" + std::to_string(i), i == 5 ? "other" : "base"));

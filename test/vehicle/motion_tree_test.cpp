@@ -169,7 +169,7 @@ TEST(MotionTree, FollowsAsItEvaluates) {
   constexpr double kRounding = 1e-10;
   MotionTree tree = MakeChain(1);
   const auto expect_same = [&](const std::string& frame, double t) {
-    const Motion followed = tree.Follow("map", frame, t),
+    const Motion followed = tree.Follow(tree.FindLink("map", frame), t),
                  evaluated = tree.Evaluate("map", frame, t);
     EXPECT_LT((followed.X.p - evaluated.X.p).norm(), kRounding) << frame << " at " << t;
     EXPECT_LT((followed.X.q.coeffs() - evaluated.X.q.coeffs()).norm(), kRounding);
@@ -197,10 +197,12 @@ TEST(MotionTree, FollowsAsItEvaluates) {
 
 TEST(MotionTree, FollowIsIndependentOfItsPast) {
   MotionTree each = MakeChain(1), some = MakeChain(1);
-  for (double t = 0.3; t < 0.7; t += 0.001) each.Follow("map", "sensor", t);
+  const MotionTree::Link of_each = each.FindLink("map", "sensor"),
+                         of_some = some.FindLink("map", "sensor");
+  for (double t = 0.3; t < 0.7; t += 0.001) each.Follow(of_each, t);
   for (const double t : {0.44, 0.5, 0.52, 0.6}) {
-    EXPECT_EQ(each.Follow("map", "sensor", t).a, some.Follow("map", "sensor", t).a) << t;
-    EXPECT_EQ(each.Follow("map", "sensor", t).alpha, some.Follow("map", "sensor", t).alpha) << t;
+    EXPECT_EQ(each.Follow(of_each, t).a, some.Follow(of_some, t).a) << t;
+    EXPECT_EQ(each.Follow(of_each, t).alpha, some.Follow(of_some, t).alpha) << t;
   }
 }
 

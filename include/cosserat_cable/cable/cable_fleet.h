@@ -10,13 +10,14 @@
 namespace cosserat_cable {
 
 /// Takes the same steps as CableSimulation::Step, several cables at a time: those with equal
-/// numbers of elements, and the same ends held rigidly, go in groups of four (of eight, where the
-/// machine's vectors are as wide) through the lanes of one kernel. What a cable does does not
-/// depend on the others, to the last bit.
+/// numbers of elements, and the same ends held rigidly, go in groups of up to four (up to eight,
+/// where the machine's vectors are as wide) through the lanes of one kernel. What a cable does does
+/// not depend, to the last bit, on how they are grouped, nor on what those in its group do.
 class CableFleet {
  public:
-  /// The simulations outlive this, and are stepped through it only.
-  explicit CableFleet(const std::vector<CableSimulation*>& cables);
+  /// The simulations outlive this, and are stepped through it only. `threads`: for which there are
+  /// to be groups, as long as these are worth a kernel.
+  explicit CableFleet(const std::vector<CableSimulation*>& cables, int threads = 1);
   ~CableFleet();
   CableFleet(CableFleet&&) noexcept;
   CableFleet& operator=(CableFleet&&) noexcept;

@@ -54,6 +54,7 @@ struct CableReport {
 
 /// Where a cable and the bodies around it are at one instant, in W.
 struct CablePosture {
+  Pose a;                              ///< the clamp's section frame
   std::vector<Eigen::Vector3d> nodes;  ///< [m]
   std::vector<Motion> obstacles;
 };

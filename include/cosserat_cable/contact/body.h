@@ -22,7 +22,7 @@ struct Clearance {
 };
 
 /// Lets bodies share what they make of equal meshes: a vehicle has four wheels, and one mesh of
-/// them. Needed while bodies are made, not after.
+/// them. Needed while bodies are made, which may be in several threads at once, and not after.
 class MeshStore {
  public:
   MeshStore();
@@ -59,8 +59,11 @@ class Body {
   /// A bound from simple solids around the shapes alone [m]: the signed distance is no less. -inf
   /// within one.
   double LowerBound(const Eigen::Vector3d& p_B) const;
-  /// True where such bounds of all `points_B` exceed `margin` [m] >= 0.
-  bool IsBeyond(double margin, const PointRows& points_B) const;
+  /// An axis of B (0, 1 or 2) about which the body turns without taking up more room, as a wheel;
+  /// -1: none.
+  int axis() const;
+  /// Such a bound for all `points_B` at once, which holds however they turn about axis().
+  double LowerBoundTurned(const PointRows& points_B) const;
 
   /// Axis-aligned box that holds all shapes, in B. Empty where there are none.
   const Eigen::AlignedBox3d& bounds() const;

@@ -23,8 +23,14 @@ class PointRows {
   const double* y() const { return data_.data() + stride_; }
   const double* z() const { return data_.data() + 2 * stride_; }
 
-  /// The largest distance between two points that follow each other [m].
+  // Lengths [m], infinite where a point is not finite.
+
+  /// The largest distance between two points that follow each other.
   double LongestStep() const;
+  /// The largest distance from the frame's origin.
+  double Radius() const;
+  /// The largest distance between a point and where it was; infinite where that is not known.
+  double LongestWay(const PointRows& before) const;
 
  private:
   void Resize(std::size_t size);

@@ -60,6 +60,12 @@ struct alignas(N * sizeof(S)) BasicLanes {
   friend BasicLanes Min(const BasicLanes& a, const BasicLanes& b) {
     return Of(a.v < b.v ? a.v : b.v);
   }
+  // One instruction where the code is compiled with -fno-math-errno.
+  friend BasicLanes Sqrt(const BasicLanes& a) {
+    BasicLanes roots;
+    for (int lane = 0; lane < N; ++lane) roots.v[lane] = std::sqrt(a.v[lane]);
+    return roots;
+  }
 };
 
 /// Four cables, side by side.

@@ -34,6 +34,8 @@ struct Motion {
 
   /// Motion of C in A from that of B in A (this) and that of C in B.
   Motion operator*(const Motion& BC) const;
+  /// The same for a C that is fixed to B.
+  Motion operator*(const Pose& X_BC) const;
 };
 
 }  // namespace cosserat_cable

@@ -41,8 +41,8 @@ struct EngineOptions {
 /// Collision geometry by link.
 using BodyMap = std::map<std::string, std::unique_ptr<Body>>;
 
-/// The bodies of all links with collision shapes.
-BodyMap MakeBodies(const VehicleModel& vehicle);
+/// The bodies of all links with collision shapes. `threads`: see EngineOptions.
+BodyMap MakeBodies(const VehicleModel& vehicle, int threads);
 
 /// Links whose motion the cables need: clamps, references, and those to avoid; each once.
 std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables);
@@ -88,21 +88,27 @@ class CableEngine {
   void Follow(std::int64_t time, Instant* instant);
   void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
   void Sway(std::size_t group, const std::vector<Instant>& block);
+  void SwayThrough(const std::vector<Instant>& block, std::int64_t ready, OutputSink* sink,
+                   std::vector<Instant>* next);
   void CollectTold();
+  void MeasureClearances(std::size_t cable);
+  void MeasureClearances();
+  void TakeMeasured();
+  void TellDiagnostics();
   void Deliver(OutputSink* sink);
   bool Due(std::int64_t period, std::int64_t time) const;
-  std::size_t FrameIndex(const std::string& link);
+  std::size_t FrameIndex(const std::string& link) const;
 
   EngineOptions options_;
   std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
   std::string vehicle_root_;
   LinkMotion links_;
-  std::vector<std::string> frames_;  // links whose motion the cables need
   std::vector<std::unique_ptr<SwayingCable>> cables_;
   std::unique_ptr<CableFleet> fleet_;  // of their simulations
   std::vector<Group> groups_;          // of the fleet
   std::unique_ptr<Threads> threads_;
-  std::vector<Told> told_;  // to be delivered
+  std::vector<Told> unmeasured_;  // told, but for the clearances
+  std::vector<Told> told_;        // to be delivered
 
   bool send_markers_ = true;
   bool started_ = false;

@@ -69,8 +69,10 @@ class LinkMotion {
   bool Range(std::int64_t* begin, std::int64_t* ready) const;
 
   Motion Evaluate(const std::string& link, std::int64_t time) const;
-  /// The same up to rounding; see MotionTree::Follow.
-  Motion Follow(const std::string& link, std::int64_t time);
+  /// The links given at construction.
+  const std::vector<std::string>& links() const { return links_; }
+  /// The same of the i-th of them, up to rounding; see MotionTree::Follow.
+  Motion Follow(std::size_t i, std::int64_t time);
   bool InGap(const std::string& link, std::int64_t time) const;
   /// Intervals longer than max_gap, over the edges that links depend on; also of runs before Clear.
   std::uint64_t gap_count() const;
@@ -111,6 +113,7 @@ class LinkMotion {
   std::vector<const JointModel*> named_joints_;           // of these names; null: not in the URDF
 
   MotionTree tree_;
+  std::vector<MotionTree::Link> followed_;  // links_ as seen from world_, once asked for
   std::map<std::string, Edge> edges_;
   std::string world_;
   std::set<std::string> relevant_;  // children on the way from the links to the root

@@ -28,7 +28,7 @@ visualization_msgs::MarkerArray DeleteMarkers(const CableModel& model, std::int6
 /// The colour at x in [0, 1]: the viridis map, perceptually even.
 Eigen::Vector3d ViridisColor(double x);
 
-/// Position and section rotation at arc length s [m] of a cable's present state, in the world.
-Pose PoseAt(const CableSimulation& cable, double s);
+/// The position at arc length s [m] of a cable's present state, in the world.
+Eigen::Vector3d PositionAt(const CableSimulation& cable, double s);
 
 }  // namespace cosserat_cable

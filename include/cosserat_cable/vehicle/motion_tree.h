@@ -75,9 +75,21 @@ class MotionTree {
   /// @pre Connected, and every edge between them has samples
   Motion Evaluate(const std::string& ancestor, const std::string& frame, double time) const;
 
-  /// The same up to rounding; remembers each edge's motion and each frame's, so that the frames of
-  /// a tree at one time, and times in small steps, are cheap.
-  Motion Follow(const std::string& ancestor, const std::string& frame, double time);
+  /// A frame as seen from another, looked up once to be followed often; stays as long as the tree.
+  class Link {
+   public:
+    explicit operator bool() const { return frame_ != nullptr; }
+
+   private:
+    friend class MotionTree;
+    const Frame* top_ = nullptr;
+    Frame* frame_ = nullptr;
+  };
+  /// @pre Connected
+  Link FindLink(const std::string& ancestor, const std::string& frame);
+  /// As Evaluate, up to rounding; remembers each edge's motion and each frame's, so that the frames
+  /// of a tree at one time, and times in small steps, are cheap.
+  Motion Follow(const Link& link, double time);
 
   /// True where a moving edge between the two is in a gap at `time` [s].
   bool InGap(const std::string& ancestor, const std::string& frame, double time) const;
