@@ -8,11 +8,18 @@
 namespace cosserat_cable::rod {
 namespace {
 
+/// What of a step's accelerations comes from its start.
+template <class T>
+NodeRates<T> PartOfPast(const StepCoefficients& c, const ChainState<T>& start) {
+  const T old_algorithm(c.old_algorithm), old_rate(c.old_rate);
+  return {old_algorithm * start.algorithm.v + old_rate * start.rate.v,
+          old_algorithm * start.algorithm.omega + old_rate * start.rate.omega};
+}
+
 template <class T>
 void PredictOf(const StepCoefficients& c, StepChain<T>* chain) {
   StepChain<T>& w = *chain;
   const T dt(c.dt), coasting_velocity(c.coasting_velocity), coasting_rate(c.coasting_rate);
-  const T old_algorithm(c.old_algorithm), old_rate(c.old_rate);
   const T half_dt_squared(0.5 * c.dt * c.dt);
   const T by_mean = half_dt_squared * w.persistence.v;
   const T by_mean_omega = half_dt_squared * w.persistence.omega;
@@ -22,7 +29,6 @@ void PredictOf(const StepCoefficients& c, StepChain<T>* chain) {
   for (int k = 0; k < count; ++k) {
     const ChainState<T>& from = w.state[k];
     ChainNode<T>& to = w.nodes[k];
-    NodeRates<T>& past = w.past[k];
     const Vec3<T> beyond = by_mean * from.mean.v;
     const Vec3<T> turn_beyond = by_mean_omega * from.mean.omega;
     to.q0 = from.at.q;
@@ -31,8 +37,7 @@ void PredictOf(const StepCoefficients& c, StepChain<T>* chain) {
     to.at.v = from.at.v + coasting_velocity * from.algorithm.v + velocity_by_increment * beyond;
     to.at.omega = from.at.omega + coasting_velocity * from.algorithm.omega +
                   velocity_by_increment * turn_beyond;
-    past.v = old_algorithm * from.algorithm.v + old_rate * from.rate.v;
-    past.omega = old_algorithm * from.algorithm.omega + old_rate * from.rate.omega;
+    const NodeRates<T> past = PartOfPast(c, from);
     to.rate.v = past.v + coasting_rate * from.algorithm.v + rate_by_increment * beyond;
     to.rate.omega =
         past.omega + coasting_rate * from.algorithm.omega + rate_by_increment * turn_beyond;
@@ -191,17 +196,19 @@ void CommitNodes(const StepCoefficients& c, const T& taken, StepChain<T>* chain)
   Foretold<T> foretold, foretold_omega;
   for (int k = 0; k < count; ++k) {
     const ChainNode<T>& from = w.nodes[k];
-    const NodeRates<T>& past = w.past[k];
+    const ChainState<T>& before = w.state[k];
+    const NodeRates<T> past = PartOfPast(c, before);
     const NodeRates<T> algorithm = {algorithm_by_rate * (from.rate.v - past.v),
                                     algorithm_by_rate * (from.rate.omega - past.omega)};
-    const NodeRates<T>&before = w.state[k].algorithm, &mean_before = w.state[k].mean;
-    const NodeRates<T> mean = {old_mean * before.v + new_mean * algorithm.v,
-                               old_mean * before.omega + new_mean * algorithm.omega};
-    foretold.Add(mean_before.v, mean.v);
-    foretold_omega.Add(mean_before.omega, mean.omega);
+    const NodeRates<T> mean = {old_mean * before.algorithm.v + new_mean * algorithm.v,
+                               old_mean * before.algorithm.omega + new_mean * algorithm.omega};
+    if (k >= w.layout.padding) {
+      foretold.Add(before.mean.v, mean.v);
+      foretold_omega.Add(before.mean.omega, mean.omega);
+    }
     ChainState<T> now = {from.at, from.rate, algorithm, mean};
     now.at.q = Renormalised(now.at.q);
-    w.state[k] = all ? now : Taken(taken, now, w.state[k]);
+    w.state[k] = all ? now : Taken(taken, now, before);
   }
   w.persistence = {Taken(taken, foretold.Part(), w.persistence.v),
                    Taken(taken, foretold_omega.Part(), w.persistence.omega)};

@@ -158,7 +158,6 @@ struct StepChain {
         shear(layout.chain_elements),
         next_shear(shear.size()),
         nodes(state.size()),
-        past(state.size()),
         masses(state.size()),
         shear_offsets(layout.chain_elements),
         branch_offsets(layout.chain_elements),
@@ -219,7 +218,6 @@ struct StepChain {
   std::vector<ChainShear<T>> shear, next_shear;  // the latter is of a step that is being accepted
 
   std::vector<ChainNode<T>> nodes;
-  std::vector<NodeRates<T>> past;  // what of the accelerations comes from the step's start
   std::vector<NodeMass<T>> masses;
   std::vector<ShearOffset<T>> shear_offsets;
   std::vector<ElementOffset<T>> branch_offsets;  // only where `branched`
