@@ -8,9 +8,11 @@ BLUE, ORANGE = page_figures.COLOURS[:2]
 
 
 def curve(axes, costs, **style):
-    axes.plot([int(n) for n in costs], list(costs.values()), marker='o', markersize=4, **style)
+    counts = sorted(costs, key=int)  # a JSON file has them as text, in the order of text
+    axes.plot([int(n) for n in counts], [costs[n] for n in counts], marker='o', markersize=4,
+              **style)
     axes.set_xscale('log', base=2)
-    axes.set_xticks([int(n) for n in costs])
+    axes.set_xticks([int(n) for n in counts])
     axes.xaxis.set_major_formatter(ticker.ScalarFormatter())
     axes.minorticks_off()
 
