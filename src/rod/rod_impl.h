@@ -83,9 +83,9 @@ struct Rod::Impl {
   /// as long [s] is there and does not change from step to step.
   template <class T>
   void FillLaw(int lane, StepChain<T>* chain, double* dt_there) const;
-  /// What the branches add to the offsets of the chain.
+  /// What the branches add to the offsets of the chain: of a rod without any, nothing.
   template <class T>
-  void FillBranches(int lane, StepChain<T>* chain);
+  void FillBranches(int lane, StepChain<T>* chain) const;
   /// The clamped ends into the chain's first iterate.
   template <class T>
   void HoldInChain(int lane, StepChain<T>* chain) const;
