@@ -183,7 +183,7 @@ double Rod::Impl::CommitBranches(const StepChain<T>& chain, int rod_lane) {
 }
 
 template <class T>
-void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, double load_power) {
+void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   const ChainLayout& layout = chain.layout;
   const ChainLayout::Place front = layout.OfNode(0, rod_lane);
   const ChainLayout::Place back = layout.OfNode(model.elements, rod_lane);
@@ -201,7 +201,6 @@ void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, dou
     if (layout.halves || lane == rod_lane) dissipation_rate_ += GetLane(chain.dissipation, lane);
   if (!branches.empty()) dissipation_rate_ += h * CommitBranches(chain, rod_lane);
   address.fetched = false;
-  AccountForStep(dt, load_power);
 }
 
 #define COSSERAT_CABLE_INSTANTIATE(T)                                                            \
@@ -210,7 +209,7 @@ void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, dou
   template void Rod::Impl::FillBranches(int, StepChain<T>*) const;                               \
   template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
   template void Rod::Impl::TakeState(const StepChain<T>&, int);                                  \
-  template void Rod::Impl::TakeStep(double, const StepChain<T>&, int, double);
+  template void Rod::Impl::TakeStep(const StepChain<T>&, int);
 COSSERAT_CABLE_INSTANTIATE(WideLanes)
 COSSERAT_CABLE_INSTANTIATE(Lanes)
 COSSERAT_CABLE_INSTANTIATE(LanePair)

@@ -96,6 +96,7 @@ struct Lane {
   Vector3d axis_a, axis_b;
   double frequency;
   std::unique_ptr<Load> load;  // none: no load
+  bool set_out = false;        // its energies are counted from the end of the first step on
   std::vector<int> rests;      // steps in which the rod is left alone
   int jump = -1;               // the step in which its clamp is nowhere
 };
@@ -150,6 +151,7 @@ Lane RandomLane(Ends ends, int elements, Random* random) {
   if (random->Chance(0.5))
     lane.load = std::make_unique<SpringsToPoint>(random->Decade(-1, 2), random->Decade(-3, -1),
                                                  random->Between(0, 1), a.p + random->Vector());
+  lane.set_out = random->Chance(0.5);
   if (random->Chance(0.2))
     for (int k = 0; k < 5; ++k) lane.rests.push_back(random->Whole(1, kSteps));
   if (elements > 1 && random->Chance(0.1)) lane.jump = random->Whole(2, kSteps);
@@ -204,6 +206,11 @@ std::vector<History> Run(const std::vector<const Lane*>& lanes) {
   for (const Lane* lane : lanes) {
     rods.emplace_back(lane->model);
     rods.back().SetConfiguration(lane->start);
+    if (lane->set_out) {
+      std::vector<Motion> resting;
+      for (const Pose& node : lane->start) resting.push_back(Motion::Resting(node));
+      rods.back().SetMotion(resting, resting.front(), resting.back());
+    }
   }
   std::vector<Rod*> pointers;
   for (Rod& rod : rods) pointers.push_back(&rod);
