@@ -84,6 +84,10 @@ def run(main):
     """Runs a tool's main: a file that cannot be read or written whole is exit code 4."""
     try:
         sys.exit(main() or OK)
+    except BrokenPipeError:
+        # Nobody reads the rest of what it prints, as below `| head`: no reason to fail.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        sys.exit(OK)
     except OSError as error:
         print(f'{error.filename or "error"}: {error.strerror or error}', file=sys.stderr)
         sys.exit(IO_ERROR)

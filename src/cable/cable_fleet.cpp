@@ -24,7 +24,8 @@ std::size_t GroupLimit(std::size_t cables, int threads) {
 }  // namespace
 
 struct CableFleet::Impl {
-  /// Cables that share a kernel; a lone one is stepped by itself, which is cheaper.
+  /// Cables that share a kernel. A lone one has the lanes for itself: by Rod::Step it would take
+  /// half the time, but round otherwise, and so see whether there are others of its kind.
   struct Group {
     std::vector<std::size_t> members;
     std::optional<rod::RodBatch> batch;
@@ -47,18 +48,16 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables, int threads)
         .push_back(i);
   }
   for (const auto& [kind, members] : alike) {
-    // As even as can be: whatever the limit, only one that has no like is by itself.
+    // As even as can be.
     const std::size_t count = RatioRoundedUp(members.size(), GroupLimit(members.size(), threads));
     for (std::size_t g = 0; g < count; ++g) {
       Impl::Group group;
       group.members.assign(members.begin() + g * members.size() / count,
                            members.begin() + (g + 1) * members.size() / count);
-      if (group.members.size() > 1) {
-        std::vector<rod::Rod*> rods;
-        for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
-        group.batch.emplace(rods);
-        group.drives.resize(rods.size());
-      }
+      std::vector<rod::Rod*> rods;
+      for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
+      group.batch.emplace(rods);
+      group.drives.resize(rods.size());
       impl_->groups.push_back(std::move(group));
     }
   }
@@ -76,10 +75,6 @@ void CableFleet::StepGroup(std::size_t index, double dt,
                            const std::vector<const Surroundings*>& then,
                            std::vector<StepOutcome>* outcomes) {
   Impl::Group& group = impl_->groups[index];
-  if (!group.batch) {
-    if (then[0]) (*outcomes)[0] = impl_->cables[group.members[0]]->Step(dt, *then[0]);
-    return;
-  }
   for (std::size_t k = 0; k < group.members.size(); ++k) {
     group.drives[k] = {};
     if (!then[k]) continue;

@@ -44,6 +44,30 @@ void ImposeEnds(const StepCoefficients& c, const EndParts& ends, int lane, StepC
   });
 }
 
+/// The attitudes to which ImposeEnds has turned the ends of one rod. A correction finds attitudes
+/// from the step's turns again, by rounding elsewhere, in rods that take nothing of it as well: to
+/// be put back in those, which would see their neighbours otherwise.
+class ImposedAttitudes {
+ public:
+  template <class T>
+  void Keep(const EndParts& ends, int lane, const StepChain<T>& chain) {
+    ends.ForEachActive([&](const EndPart&, bool at_b) {
+      const ChainLayout::Place at = PlaceOfEnd(chain, lane, at_b);
+      q_[at_b] = GetLane(chain.nodes[at.entry].at.q, at.lane);
+    });
+  }
+  template <class T>
+  void PutBack(const EndParts& ends, int lane, StepChain<T>* chain) const {
+    ends.ForEachActive([&](const EndPart&, bool at_b) {
+      const ChainLayout::Place at = PlaceOfEnd(*chain, lane, at_b);
+      SetLane(&chain->nodes[at.entry].at.q, at.lane, q_[at_b]);
+    });
+  }
+
+ private:
+  Quat<double> q_[2];  // at a and at b
+};
+
 /// Adds the clamps' springs to what loads add. With the tangent, makes what is held go to where the
 /// clamps have it, and nowhere else: put there before the first solution, which moves the nodes
 /// beside it as well, it would kink the rod.

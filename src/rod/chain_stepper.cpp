@@ -115,10 +115,13 @@ void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const R
   for (int l = 0; l < count; ++l) {
     reports[l] = steps[l].report;
     if (reports[l].converged)
-      rods[l]->TakeStep(dt, chain_, l, steps[l].load_power);
+      rods[l]->TakeStep(chain_, l);
     else if (steps[l].active)
       rods[l]->TakeBackStep();
   }
+  // Last: who opens an account asks for the state, which replaces the strains of all lanes.
+  for (int l = 0; l < count; ++l)
+    if (reports[l].converged) rods[l]->AccountForStep(dt, steps[l].load_power);
 }
 
 template class ChainStepper<WideLanes>;

@@ -74,14 +74,14 @@ void Rod::Impl::FillLaw(int rod_lane, StepChain<T>* chain, double* dt_there) con
 }
 
 template <class T>
-void Rod::Impl::FillBranches(int rod_lane, StepChain<T>* chain) {
+void Rod::Impl::FillBranches(int rod_lane, StepChain<T>* chain) const {
   const ChainLayout& layout = chain->layout;
-  for (int e = 0; e < model.elements; ++e) branch_stress_[e] = branches.Offset(e);
   for (int lane = 0; lane < kLaneCount<T>; ++lane) {
     if (!layout.halves && lane != rod_lane) continue;
     const double forwards = layout.halves && lane == 1 ? -1.0 : 1.0;
     for (int k = 0; k < layout.chain_elements; ++k) {
-      const SectionValue& more = branch_stress_[std::max(0, layout.ElementAt(k, lane))];
+      // Nothing of a rod without branches: what was there may be of another one.
+      const SectionValue more = branches.Offset(std::max(0, layout.ElementAt(k, lane)));
       SetLane(&chain->branch_offsets[k].F, lane, forwards * ToSmall(more.F));
       SetLane(&chain->branch_offsets[k].M, lane, forwards * ToSmall(more.M));
     }
@@ -196,6 +196,7 @@ double Rod::Impl::CommitBranches(const StepChain<T>& chain, int rod_lane) {
     const ElementStrain strain = {
         strain_of(found.u) - model.section.gamma0, strain_of(found.u_rate),
         strain_of(found.theta) - model.section.kappa0, strain_of(found.theta_rate)};
+    branch_stress_[e] = branches.Offset(e);
     branch_stress_[e].F += stiffness.F.cwiseProduct(strain.gamma);
     branch_stress_[e].M += stiffness.M.cwiseProduct(strain.kappa);
     branches.Commit(e, strain);
@@ -205,7 +206,7 @@ double Rod::Impl::CommitBranches(const StepChain<T>& chain, int rod_lane) {
 }
 
 template <class T>
-void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, double load_power) {
+void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   const ChainLayout& layout = chain.layout;
   const ChainLayout::Place front = layout.OfNode(0, rod_lane);
   const ChainLayout::Place back = layout.OfNode(model.elements, rod_lane);
@@ -223,16 +224,15 @@ void Rod::Impl::TakeStep(double dt, const StepChain<T>& chain, int rod_lane, dou
     if (layout.halves || lane == rod_lane) dissipation_rate_ += GetLane(chain.dissipation, lane);
   if (!branches.empty()) dissipation_rate_ += h * CommitBranches(chain, rod_lane);
   address.fetched = false;
-  AccountForStep(dt, load_power);
 }
 
 #define COSSERAT_CABLE_INSTANTIATE(T)                                                            \
   template void Rod::Impl::FillMasses(int, const ChainLayout&, std::vector<NodeMass<T>>*) const; \
   template void Rod::Impl::FillLaw(int, StepChain<T>*, double*) const;                           \
-  template void Rod::Impl::FillBranches(int, StepChain<T>*);                                     \
+  template void Rod::Impl::FillBranches(int, StepChain<T>*) const;                               \
   template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
   template void Rod::Impl::TakeState(const StepChain<T>&, int);                                  \
-  template void Rod::Impl::TakeStep(double, const StepChain<T>&, int, double);
+  template void Rod::Impl::TakeStep(const StepChain<T>&, int);
 COSSERAT_CABLE_INSTANTIATE(WideLanes)
 COSSERAT_CABLE_INSTANTIATE(Lanes)
 COSSERAT_CABLE_INSTANTIATE(LanePair)

@@ -90,16 +90,18 @@ struct Rod::Impl {
   /// as long [s] is there and does not change from step to step.
   template <class T>
   void FillLaw(int lane, StepChain<T>* chain, double* dt_there) const;
-  /// What the branches add to the offsets of the chain.
+  /// What the branches add to the offsets of the chain: of a rod without any, nothing.
   template <class T>
-  void FillBranches(int lane, StepChain<T>* chain);
+  void FillBranches(int lane, StepChain<T>* chain) const;
   /// The clamped ends into the chain's first iterate.
   template <class T>
   void HoldInChain(int lane, StepChain<T>* chain) const;
-  /// Takes over what a chain found in a step of `dt` [s]: end forces, energies, and the internal
-  /// variables of branches. The state stays there.
+  /// Takes over what a chain found in a step: end forces, losses, and the internal variables of
+  /// branches. The state stays there.
   template <class T>
-  void TakeStep(double dt, const StepChain<T>& chain, int lane, double load_power);
+  void TakeStep(const StepChain<T>& chain, int lane);
+  /// Adds the step of `dt` [s] that was taken to the energy balance. `load_power` [W]: at its end.
+  void AccountForStep(double dt, double load_power);
   /// The state that a chain has, and stresses from its strains.
   template <class T>
   void TakeState(const StepChain<T>& chain, int lane);
@@ -134,7 +136,6 @@ struct Rod::Impl {
   template <class T>
   ElementStress StressIn(const StepChain<T>& chain, int entry, int lane, int element) const;
   double EndPower() const;
-  void AccountForStep(double dt, double load_power);
 
   double dt_of_law_ = 0;                     // of the last step begun [s]
   ElementLaw<double> law_of_step_;           // of that step

@@ -64,9 +64,17 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
     }
   };
 
+  ImposedAttitudes imposed[kLanes];
   const auto impose_ends = [&] {
-    for (int r = 0; r < count; ++r)
-      if (running[r]) ImposeEnds(c, *rods[r].ends, r, chain);
+    for (int r = 0; r < count; ++r) {
+      const EndParts& ends = *rods[r].ends;
+      if (running[r]) {
+        ImposeEnds(c, ends, r, chain);
+        imposed[r].Keep(ends, r, *chain);
+      } else if (rods[r].report.converged) {
+        imposed[r].PutBack(ends, r, chain);
+      }
+    }
   };
 
   // What holds an end in part is so stiff that its rounding in float would hold the rest as well.

@@ -9,10 +9,11 @@
 
 namespace cosserat_cable {
 
-/// Takes the same steps as CableSimulation::Step, several cables at a time: those with equal
-/// numbers of elements, and the same ends held rigidly, go in groups of up to four (up to eight,
-/// where the machine's vectors are as wide) through the lanes of one kernel. What a cable does does
-/// not depend, to the last bit, on how they are grouped, nor on what those in its group do.
+/// Takes the same steps as CableSimulation::Step, but for rounding, several cables at a time: those
+/// with equal numbers of elements, and the same ends held rigidly, go in groups of up to four (up
+/// to eight, where the machine's vectors are as wide) through the lanes of one kernel. What a cable
+/// does does not depend, to the last bit, on how they are grouped, on what those in its group are
+/// and do, nor on whether there are others at all.
 class CableFleet {
  public:
   /// The simulations outlive this, and are stepped through it only. `threads`: for which there are
