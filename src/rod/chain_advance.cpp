@@ -16,9 +16,26 @@ NodeRates<T> PartOfPast(const StepCoefficients& c, const ChainState<T>& start) {
           old_algorithm * start.algorithm.omega + old_rate * start.rate.omega};
 }
 
+/// What the tensions make of the laws of the step.
+template <class T>
+void StiffenElements(StepChain<T>* chain) {
+  StepChain<T>& w = *chain;
+  T tightest(0.0);
+  for (const T& tension : w.tension) tightest = Max(tightest, tension);
+  w.taut = AnyAtLeast(tightest * Max(w.law.column.x.slenderness, w.law.column.y.slenderness),
+                      kSlackBelow);
+  if (!w.taut) return;
+  const ScaledLaw<T> slack(w.law);
+  for (int e = 0; e < w.layout.chain_elements; ++e) {
+    w.stiffening[e] = EvaluateStiffening(w.law.column, w.tension[e]);
+    w.taut_laws[e] = ScaledLaw<T>(slack, w.stiffening[e], w.shear_law.forwards);
+  }
+}
+
 template <class T>
 void PredictOf(const StepCoefficients& c, StepChain<T>* chain) {
   StepChain<T>& w = *chain;
+  StiffenElements(&w);
   const T dt(c.dt), coasting_velocity(c.coasting_velocity), coasting_rate(c.coasting_rate);
   const T half_dt_squared(0.5 * c.dt * c.dt);
   const T by_mean = half_dt_squared * w.persistence.v;
@@ -107,7 +124,7 @@ void BalanceEnds(const ScaledLaw<T>& law, int e, ElementState<T> state, StepChai
   const int elements = w.layout.chain_elements, padding = w.layout.padding;
   if (e > padding && e < elements - 1) return;
   EvaluateStress(w, law, e, &state);
-  const ElementForces<T> forces = ForcesOf<kJointed>(w, e, state);
+  const ElementForces<T> forces = ForcesOf<kJointed>(w, e, law.bowing, state);
   if (e <= padding) {
     w.missing_first[e] = OwnForces(w, e);
     SubtractFromFirst(forces, &w.missing_first[e]);
@@ -135,13 +152,14 @@ template <bool kJointed, class T>
 bool CommitElements(const T& taken, StepChain<T>* chain) {
   StepChain<T>& w = *chain;
   const int elements = w.layout.chain_elements;
-  const ScaledLaw<T> law(w.law);
+  const ScaledLaw<T> slack(w.law);
   const ChainShearLaw<T> shear = w.shear_law;
   const T h = w.law.h;
   const bool all = AllTaken(taken);
   T largest(0.0), dissipation(0.0);
   for (int e = 0; e < elements; ++e) {
-    const ElementState<T> state = StateOf<kJointed>(w, w.nodes, e, law.arc, &largest);
+    const ScaledLaw<T>& law = LawOf(w, slack, e);
+    const ElementState<T> state = StateOf<kJointed>(w, w.nodes, e, law.bowing, &largest);
     if (w.branched) w.strains[e] = StrainOf(state);
     const T rate_x = shear.per_length * state.u_rate.x, rate_y = shear.per_length * state.u_rate.y;
     const ChainShear<T>& before = w.shear[e];
@@ -150,13 +168,20 @@ bool CommitElements(const T& taken, StepChain<T>* chain) {
         shear.y.Commit(before.y, shear.per_length * state.u.y - shear.gamma0.y, rate_y)};
     T lost = law.V_F.z * state.u_rate.z * state.u_rate.z +
              Dot(Scale(law.V_M, state.theta_rate), state.theta_rate) +
+             law.shear_V.x * state.u_rate.x * state.u_rate.x +
+             law.shear_V.y * state.u_rate.y * state.u_rate.y +
              h * (shear.x.DissipationRate(now.x, rate_x) + shear.y.DissipationRate(now.y, rate_y));
+    T tension =
+        shear.forwards * (law.unstrained_F.z + law.C_F.z * state.u.z + law.V_F.z * state.u_rate.z);
+    if (w.branched) tension += shear.forwards * w.branch_offsets[e].F.z;
     if (e < w.layout.padding) {
       now = Taken(w.exists, now, before);
       lost = w.exists * lost;
+      tension = Taken(w.exists, tension, T(0.0));
     }
     dissipation += lost;
     w.next_shear[e] = all ? now : Taken(taken, now, before);
+    w.tension[e] = all ? tension : Taken(taken, tension, w.tension[e]);
     BalanceEnds<kJointed>(law, e, state, &w);
   }
   if (!w.careful && AnyAtLeast(largest, kArcTangentSeriesBelow)) {
@@ -218,10 +243,10 @@ void CommitNodes(const StepCoefficients& c, const T& taken, StepChain<T>* chain)
 template <bool kJointed, class T>
 bool EvaluateStrainsOf(StepChain<T>* chain) {
   StepChain<T>& w = *chain;
-  const T arc = ArcFactor(w.law.h, w.law.gamma0);
+  const ScaledLaw<T> slack(w.law);
   T largest(0.0);
   for (int e = 0; e < w.layout.chain_elements; ++e)
-    w.strains[e] = StrainOf(StateOf<kJointed>(w, w.state, e, arc, &largest));
+    w.strains[e] = StrainOf(StateOf<kJointed>(w, w.state, e, LawOf(w, slack, e).bowing, &largest));
   if (w.careful || !AnyAtLeast(largest, kArcTangentSeriesBelow)) return true;
   w.careful = true;
   return false;

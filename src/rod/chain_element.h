@@ -50,9 +50,15 @@ struct ElementEnds<true, T> {
   const Node<T> a, b;
 };
 
+/// The law of an element: its own where a tension has changed it.
+template <class T>
+const ScaledLaw<T>& LawOf(const StepChain<T>& w, const ScaledLaw<T>& slack, int e) {
+  return w.taut ? w.taut_laws[e] : slack;
+}
+
 /// Strains of an element between its nodes in `nodes`: the iterate's, or the state's.
 template <bool kJointed, class T, class Nodes>
-ElementState<T> StateOf(const StepChain<T>& w, const Nodes& nodes, int e, const T& arc,
+ElementState<T> StateOf(const StepChain<T>& w, const Nodes& nodes, int e, const Bowing<T>& bowing,
                         T* largest) {
   ElementState<T> state;
   const ElementEnds<kJointed, T> ends(w, e, nodes[e].at, nodes[e + 1].at);
@@ -65,13 +71,14 @@ ElementState<T> StateOf(const StepChain<T>& w, const Nodes& nodes, int e, const 
     CorrectArcTangent(turn.x2, &corrected);
     series = corrected;
   }
-  EvaluateStrain(a, b, turn, series, arc, &state);
+  EvaluateStrain(a, b, turn, series, bowing, &state);
   return state;
 }
 
 template <bool kJointed, class T>
-ElementForces<T> ForcesOf(const StepChain<T>& w, int e, const ElementState<T>& state) {
-  ElementForces<T> forces = EvaluateForces(state);
+ElementForces<T> ForcesOf(const StepChain<T>& w, int e, const Bowing<T>& bowing,
+                          const ElementState<T>& state) {
+  ElementForces<T> forces = EvaluateForces(state, bowing);
   if constexpr (kJointed) TurnBack(w.joints[e], &forces);
   return forces;
 }
@@ -86,12 +93,12 @@ bool AnyAtLeast(const BasicLanes<N>& x, double limit) {
 /// Force and moment of the law of the step at strains that StateOf has set.
 template <class T>
 void EvaluateStress(const StepChain<T>& w, const ScaledLaw<T>& law, int e, ElementState<T>* state) {
-  EvaluateStress(law, w.shear_offsets[e], w.unbend, state);
-  if (!w.branched) return;
-  state->n += w.branch_offsets[e].F;
-  state->m += w.branch_offsets[e].M;
-  state->m_theta +=
-      w.branch_offsets[e].M + MomentOfArc(w.branch_offsets[e].F, state->theta, law.arc);
+  EvaluateSection(law, w.shear_offsets[e], w.unbend, state);
+  if (w.branched) {
+    state->n += w.branch_offsets[e].F;
+    state->m += w.branch_offsets[e].M;
+  }
+  BowStress(law.bowing, state);
 }
 
 /// The attitude after the turns of the step, where a node has turned too far for the series.

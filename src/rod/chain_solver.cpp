@@ -92,16 +92,16 @@ class Evaluation {
   Evaluation(const StepCoefficients& c, const StepChain<T>& chain)
       : w_(chain),
         law_(chain.law),
-        moduli_(Converted<F>(chain.law.h), Converted<F>(chain.law.gamma0),
-                Converted<F>(chain.law.C_F + c.velocity_by_increment * chain.law.V_F),
-                Converted<F>(chain.law.C_M + c.velocity_by_increment * chain.law.V_M)) {
+        velocity_by_increment_(c.velocity_by_increment),
+        moduli_(ModuliOf(law_)) {
     for (T& x : on_next_.v) x = T(0.0);
   }
 
   void Element(int e, bool with_tangent, Evaluated<F>* out) {
-    ElementState<T> state = StateOf<kJointed>(w_, w_.nodes, e, law_.arc, &largest_);
-    EvaluateStress(w_, law_, e, &state);
-    const ElementForces<T> forces = ForcesOf<kJointed>(w_, e, state);
+    const ScaledLaw<T>& law = LawOf(w_, law_, e);
+    ElementState<T> state = StateOf<kJointed>(w_, w_.nodes, e, law.bowing, &largest_);
+    EvaluateStress(w_, law, e, &state);
+    const ElementForces<T> forces = ForcesOf<kJointed>(w_, e, law.bowing, state);
     Vec6<T> own = OwnForces(w_, e);
     SubtractFromFirst(forces, &own);
     Finish(e, own, out);
@@ -109,7 +109,8 @@ class Evaluation {
     if (e < w_.layout.padding)
       for (T& x : on_next_.v) x = w_.exists * x;
     if (!with_tangent) return;
-    out->tangent = EvaluateTangent(Converted<F>(state), moduli_);
+    out->tangent = w_.taut ? EvaluateTangent(Converted<F>(state), ModuliOf(law))
+                           : EvaluateTangent(Converted<F>(state), moduli_);
     if constexpr (kJointed) TurnBack(Converted<F>(w_.joints[e]), &out->tangent);
   }
   void LastNode(Evaluated<F>* out) {
@@ -121,6 +122,10 @@ class Evaluation {
   const T& largest() const { return largest_; }
 
  private:
+  TangentLaw<F> ModuliOf(const ScaledLaw<T>& law) const {
+    return {Converted<F>(law.bowing), Converted<F>(law.C_F + velocity_by_increment_ * law.V_F),
+            Converted<F>(law.C_M + velocity_by_increment_ * law.V_M)};
+  }
   void Finish(int k, Vec6<T> own, Evaluated<F>* out) {
 #pragma GCC unroll 6
     for (int i = 0; i < 6; ++i) {
@@ -132,6 +137,7 @@ class Evaluation {
 
   const StepChain<T>& w_;
   const ScaledLaw<T> law_;
+  const T velocity_by_increment_;
   const TangentLaw<F> moduli_;
   T largest_ = 0.0;
   Vec6<T> on_next_;  // what the last element exerts on its second node

@@ -34,8 +34,11 @@ void ChainStepper<T>::CopyState(int rod_lane, const Rod::Impl& rod) {
       SetLane(&chain_.state[k].algorithm, lane, rod.w.algorithm[i]);
       SetLane(&chain_.state[k].mean, lane, rod.w.mean[i]);
     }
-    for (int k = 0; k < layout.chain_elements; ++k)
-      SetLane(&chain_.shear[k], lane, rod.shear[std::max(0, layout.ElementAt(k, lane))]);
+    for (int k = 0; k < layout.chain_elements; ++k) {
+      const int e = layout.ElementAt(k, lane);
+      SetLane(&chain_.shear[k], lane, rod.shear[std::max(0, e)]);
+      SetLane(&chain_.tension[k], lane, e < 0 ? 0.0 : rod.tension[e]);
+    }
   }
 }
 

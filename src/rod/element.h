@@ -3,14 +3,25 @@
 // Strains live at the element's geodesic midpoint. With the relative rotation vector
 // theta = log(R1^T R2), midpoint rotation Rm = R1 exp(theta/2) and chord = Rm^T (r2 - r1):
 //
-//     Gamma = (chord + a)/h  K = theta/h      a = h/24 (theta.theta Gamma_0 - theta.Gamma_0 theta)
+//     w = chord + a        a = h/24 (theta.theta e3 - theta_3 theta)        K = theta/h
+//     h Gamma_1 = w_1      h Gamma_2 = w_2
+//     h Gamma_3 = (1 - mu) chord_3 + mu |chord| + a_3
 //
-// so both are invariant under superposed rigid motions. By a an arc is longer than its chord: of a
+// so all are invariant under superposed rigid motions. By a an arc is longer than its chord: of a
 // curvature that is constant along the element the part (K h)^2/24. Without it, an element that is
-// bent would be taken for pressed, and the chain would need three times the elements. Gamma_0 is
-// (0, 0, 1) here, to which strains add what is small of fourth order. Rotations vary as
-// R <- R exp([phi]x), phi in the section's own frame. Exactly (every matrix below is a function of
-// [theta]x, so they commute):
+// bent would be taken for pressed, and the chain would need three times the elements.
+//
+// What an element seems to be sheared is for the part beta the S-shaped rest of its bending
+// (shear_series.h). That leaves the centreline along the sections' normals, so that its length goes
+// with the chord's, and makes it longer by a tenth of the angle's square: of beta = 1, mu = 6/5. If
+// its stretch were that of the chord's part along a3, sections could turn away from a tension for
+// 12 EI/h^2, and no element could carry more than that. Both are "bowing" in the theory of
+// beam-columns; how it and the bending stiffness depend on the tension is in beam_column.h. The
+// chord's length takes no part in how the nodes turn.
+//
+// e3 is Gamma_0 = (0, 0, 1) here, to which strains add what is small of fourth order. Rotations
+// vary as R <- R exp([phi]x), phi in the section's own frame. Exactly (every matrix below is a
+// function of [theta]x, so they commute):
 //
 //     delta theta = J2 phi2 - J1 phi1    J2 = I + [theta]x/2 + c [theta]x^2,  J1 = J2^T
 //     phi_m       = P1 phi1 + P2 phi2    P2 = (I + tau [theta]x)/2,           P1 = P2^T
@@ -23,6 +34,7 @@
 // + q_w) of q = q1* q2.
 #pragma once
 
+#include "beam_column.h"
 #include "rotation_kernel.h"
 
 namespace cosserat_cable::rod {
@@ -36,6 +48,8 @@ struct ElementLaw {
   Vec3<T> C_F, C_M;  ///< [N], [N m^2]
   Vec3<T> V_F, V_M;  ///< [N s], [N m^2 s]
   Vec3<T> gamma0;    ///< unstressed strain [1]
+  Bowing<T> bowing;  ///< without tension
+  BeamColumn<T> column;
 };
 
 template <class T>
@@ -57,16 +71,11 @@ struct Node {
   Vec3<T> omega;  ///< angular velocity [rad/s], section frame
 };
 
-/// h/24, along the unstressed Gamma_0 [m]: negative where an element is seen from its other end.
-template <class T>
-T ArcFactor(const T& h, const Vec3<T>& gamma0) {
-  return T(1.0 / 24) * h * gamma0.z;
-}
-
 /// ElementLaw per increment of what EvaluateStrain gives, and with the unstressed strain folded in:
 /// what is the same for all elements of a rod.
 template <class T>
 struct ScaledLaw {
+  ScaledLaw() = default;
   explicit ScaledLaw(const ElementLaw<T>& law) {
     one_over_h = T(1) / law.h;
     C_F = one_over_h * law.C_F;
@@ -74,32 +83,49 @@ struct ScaledLaw {
     V_F = one_over_h * law.V_F;
     V_M = one_over_h * law.V_M;
     unstrained_F = -Scale(law.C_F, law.gamma0);
-    arc = ArcFactor(law.h, law.gamma0);
+    bowing = law.bowing;
+    shear_V = {T(0.0), T(0.0)};
   }
+  /// Of an element that a tension stiffens; `sense` as in Bowed.
+  ScaledLaw(const ScaledLaw& slack, const Stiffening<T>& by, const T& sense) : ScaledLaw(slack) {
+    C_F.x += one_over_h * by.y.C_F;  // shear along a1 goes with bending about a2
+    C_F.y += one_over_h * by.x.C_F;
+    C_M.x += one_over_h * by.x.C_M;
+    C_M.y += one_over_h * by.y.C_M;
+    shear_V = {one_over_h * by.y.V_F, one_over_h * by.x.V_F};
+    V_F.x += shear_V.x;
+    V_F.y += shear_V.y;
+    V_M.x += one_over_h * by.x.V_M;
+    V_M.y += one_over_h * by.y.V_M;
+    bowing = Bowed(bowing, by, sense);
+  }
+
   T one_over_h;
   Vec3<T> C_F, C_M, V_F, V_M;
   Vec3<T> unstrained_F;  ///< -C_F Gamma0
-  T arc;                 ///< [m]
+  Bowing<T> bowing;
+  PerAxis<T> shear_V;  ///< what of V_F a tension makes, along a1 and a2 [N s/m]
 };
 
 template <class T>
 struct ElementState {
   Mat3<T> Rm;
-  Vec3<T> chord;  ///< Rm^T (r2 - r1) [m]
-  Vec3<T> u;      ///< h Gamma [m]
-  Vec3<T> theta;  ///< h K [rad]
+  Vec3<T> chord;     ///< Rm^T (r2 - r1) [m]
+  T one_over_chord;  ///< [1/m]
+  Vec3<T> u;         ///< h Gamma [m]
+  Vec3<T> theta;     ///< h K [rad]
   T tau, c;
   Vec3<T> u_rate, theta_rate;  ///< h dGamma/dt [m/s], h dK/dt [rad/s]
-  Vec3<T> n, m;                ///< force [N] and moment [N m] in the midpoint's frame
-  Vec3<T> m_theta;             ///< what works on theta: m, and n on a [N m]
+  Vec3<T> n, m;                ///< of the section: force [N] and moment [N m], midpoint's frame
+  Vec3<T> m_theta;             ///< what works on theta [N m]
 };
 
 template <class To, class From>
 ElementState<To> Converted(const ElementState<From>& e) {
-  return {Converted<To>(e.Rm),     Converted<To>(e.chord),      Converted<To>(e.u),
-          Converted<To>(e.theta),  Converted<To>(e.tau),        Converted<To>(e.c),
-          Converted<To>(e.u_rate), Converted<To>(e.theta_rate), Converted<To>(e.n),
-          Converted<To>(e.m),      Converted<To>(e.m_theta)};
+  return {Converted<To>(e.Rm), Converted<To>(e.chord),  Converted<To>(e.one_over_chord),
+          Converted<To>(e.u),  Converted<To>(e.theta),  Converted<To>(e.tau),
+          Converted<To>(e.c),  Converted<To>(e.u_rate), Converted<To>(e.theta_rate),
+          Converted<To>(e.n),  Converted<To>(e.m),      Converted<To>(e.m_theta)};
 }
 
 /// Modified Rodrigues vector x of q1* q2 and the midpoint's frame.
@@ -127,10 +153,11 @@ RelativeTurn<T> EvaluateTurn(const Quat<T>& a, const Quat<T>& b, Mat3<T>* Rm) {
   return turn;
 }
 
-/// Strains and their rates, from the turn and its series. `arc`: ArcFactor.
+/// Strains and their rates, from the turn and its series.
 template <class T>
 void EvaluateStrain(const Node<T>& a, const Node<T>& b, const RelativeTurn<T>& turn,
-                    const ArcTangentSeries<T>& series, const T& arc, ElementState<T>* e) {
+                    const ArcTangentSeries<T>& series, const Bowing<T>& bowing,
+                    ElementState<T>* e) {
   e->theta = series.angle * turn.x;
   e->tau = series.tau;
   e->c = series.c;
@@ -139,48 +166,72 @@ void EvaluateStrain(const Node<T>& a, const Node<T>& b, const RelativeTurn<T>& t
   const Vec3<T> tx = Cross(e->theta, domega);
   const Vec3<T> omega_m = somega + (T(0.5) * e->tau) * tx;
   e->theta_rate = domega + Cross(e->theta, somega) + e->c * Cross(e->theta, tx);
-  const Vec3<T> t = arc * e->theta, &rate = e->theta_rate;
-  e->u.x = e->chord.x - t.x * e->theta.z;
-  e->u.y = e->chord.y - t.y * e->theta.z;
-  e->u.z = e->chord.z + (t.x * e->theta.x + t.y * e->theta.y);
-  e->u_rate = TransposeTimes(e->Rm, b.v - a.v) + Cross(e->chord, omega_m);
-  e->u_rate.x -= t.z * rate.x + t.x * rate.z;
-  e->u_rate.y -= t.z * rate.y + t.y * rate.z;
-  e->u_rate.z += T(2.0) * (t.x * rate.x + t.y * rate.y);
+  const Vec3<T>&theta = e->theta, &rate = e->theta_rate;
+  const T shortest(1e-30);  // squared; no nodes are that near
+  const T square = Max(Dot(e->chord, e->chord), shortest);
+  e->one_over_chord = InverseSqrt(square);
+  const T length = square * e->one_over_chord;
+  const T twist = bowing.twist * theta.z, twist_rate = bowing.twist * rate.z;
+  e->u.x = e->chord.x - twist * theta.x;
+  e->u.y = e->chord.y - twist * theta.y;
+  const T bend_x = bowing.bend_x * theta.x, bend_y = bowing.bend_y * theta.y;
+  e->u.z = (bowing.along_normal * e->chord.z + bowing.along_chord * length) +
+           (bend_x * theta.x + bend_y * theta.y);
+  const Vec3<T> moved = TransposeTimes(e->Rm, b.v - a.v);
+  const T by_chord = bowing.along_chord * e->one_over_chord;
+  e->u_rate = moved + Cross(e->chord, omega_m);
+  e->u_rate.x -= twist_rate * theta.x + twist * rate.x;
+  e->u_rate.y -= twist_rate * theta.y + twist * rate.y;
+  e->u_rate.z = (bowing.along_normal * e->u_rate.z + by_chord * Dot(e->chord, moved)) +
+                T(2.0) * (bend_x * rate.x + bend_y * rate.y);
 }
 
 /// Strains and their rates.
 template <class T>
-void EvaluateStrain(const Node<T>& a, const Node<T>& b, const T& arc, ElementState<T>* e) {
+void EvaluateStrain(const Node<T>& a, const Node<T>& b, const Bowing<T>& bowing,
+                    ElementState<T>* e) {
   const RelativeTurn<T> turn = EvaluateTurn(a.q, b.q, &e->Rm);
-  EvaluateStrain(a, b, turn, EvaluateArcTangent(turn.x2), arc, e);
+  EvaluateStrain(a, b, turn, EvaluateArcTangent(turn.x2), bowing, e);
 }
 
-/// D^T n: what of the moment on theta the force makes.
+/// From force and moment of the section in `e->n` and `e->m` to what works on theta: D^T n in
+/// addition.
 template <class T>
-Vec3<T> MomentOfArc(const Vec3<T>& n, const Vec3<T>& theta, const T& arc) {
-  const Vec3<T> t = arc * theta;
-  const T twice = n.z + n.z;
-  return {twice * t.x - n.x * t.z, twice * t.y - n.y * t.z, -(n.x * t.x + n.y * t.y)};
+void BowStress(const Bowing<T>& bowing, ElementState<T>* e) {
+  const Vec3<T>&n = e->n, &theta = e->theta;
+  const T twice = n.z + n.z, twist = bowing.twist * theta.z;
+  e->m_theta = {e->m.x + (twice * bowing.bend_x * theta.x - n.x * twist),
+                e->m.y + (twice * bowing.bend_y * theta.y - n.y * twist),
+                e->m.z - bowing.twist * (n.x * theta.x + n.y * theta.y)};
 }
 
-/// Force and moment of the section law at strains that EvaluateStrain has set.
+/// Of the force, what turns with the midpoint's frame; the rest turns with the chord.
 template <class T>
-void EvaluateStress(const ScaledLaw<T>& law, const ElementOffset<T>& offset, ElementState<T>* e) {
-  e->n = (offset.F + law.unstrained_F) + Scale(law.C_F, e->u) + Scale(law.V_F, e->u_rate);
-  e->m = offset.M + Scale(law.C_M, e->theta) + Scale(law.V_M, e->theta_rate);
-  e->m_theta = e->m + MomentOfArc(e->n, e->theta, law.arc);
+Vec3<T> ForceInFrame(const ElementState<T>& e, const Bowing<T>& bowing) {
+  return {e.n.x, e.n.y, bowing.along_normal * e.n.z};
+}
+
+/// Force and moment of the section law at strains that EvaluateStrain has set; BowStress completes.
+template <class T>
+void EvaluateSection(const ScaledLaw<T>& law, const Vec3<T>& offset_F, const Vec3<T>& offset_M,
+                     ElementState<T>* e) {
+  e->n = offset_F + Scale(law.C_F, e->u) + Scale(law.V_F, e->u_rate);
+  e->m = offset_M + Scale(law.C_M, e->theta) + Scale(law.V_M, e->theta_rate);
 }
 
 /// The same where all that the internal variables make is shear.
 template <class T>
-void EvaluateStress(const ScaledLaw<T>& law, const ShearOffset<T>& offset, const Vec3<T>& unbend,
-                    ElementState<T>* e) {
-  e->n = law.unstrained_F + Scale(law.C_F, e->u) + Scale(law.V_F, e->u_rate);
+void EvaluateSection(const ScaledLaw<T>& law, const ShearOffset<T>& offset, const Vec3<T>& unbend,
+                     ElementState<T>* e) {
+  EvaluateSection(law, law.unstrained_F, unbend, e);
   e->n.x += offset.x;
   e->n.y += offset.y;
-  e->m = unbend + Scale(law.C_M, e->theta) + Scale(law.V_M, e->theta_rate);
-  e->m_theta = e->m + MomentOfArc(e->n, e->theta, law.arc);
+}
+
+template <class T>
+void EvaluateStress(const ScaledLaw<T>& law, const ElementOffset<T>& offset, ElementState<T>* e) {
+  EvaluateSection(law, offset.F + law.unstrained_F, offset.M, e);
+  BowStress(law.bowing, e);
 }
 
 /// Generalised forces on the two nodes: what the element adds to M dv/dt + ... = 0.
@@ -191,14 +242,15 @@ struct ElementForces {
 };
 
 template <class T>
-ElementForces<T> EvaluateForces(const ElementState<T>& e) {
-  const Vec3<T> half_p = T(0.5) * Cross(e.n, e.chord);
+ElementForces<T> EvaluateForces(const ElementState<T>& e, const Bowing<T>& bowing) {
+  const Vec3<T> p = ForceInFrame(e, bowing);
+  const Vec3<T> half_p = T(0.5) * Cross(p, e.chord);
   const Vec3<T> txm = Cross(e.theta, e.m_theta);
   // theta x m has the same sign on both nodes, tau theta x p does not.
   const Vec3<T> same = half_p - T(0.5) * txm;
   const Vec3<T> opposite = e.m_theta + e.c * Cross(e.theta, txm) - e.tau * Cross(e.theta, half_p);
   ElementForces<T> out;
-  out.f = e.Rm * e.n;
+  out.f = e.Rm * (p + (bowing.along_chord * e.one_over_chord * e.n.z) * e.chord);
   out.g2 = same + opposite;
   out.g1 = same - opposite;
   return out;

@@ -3,21 +3,17 @@
 #include <algorithm>
 
 #include "cosserat_cable/math/kernel.h"
+#include "lane_access.h"
 
 namespace cosserat_cable::rod {
 namespace {
 
 constexpr int kLanes = Lanes::kCount;
 
-Vec3<Lanes> Broadcast(const Vec3<double>& v) { return {v.x, v.y, v.z}; }
-
 ElementLaw<Lanes> Broadcast(const ElementLaw<double>& law) {
-  return {law.h,
-          Broadcast(law.C_F),
-          Broadcast(law.C_M),
-          Broadcast(law.V_F),
-          Broadcast(law.V_M),
-          Broadcast(law.gamma0)};
+  ElementLaw<Lanes> wide;
+  for (int l = 0; l < kLanes; ++l) SetLane(&wide, l, law);
+  return wide;
 }
 
 /// Four nodes side by side.
@@ -108,6 +104,10 @@ ElementChain<T>::ElementChain(int elements)
     : elements_(elements), states_(Entries(elements, static_cast<T*>(nullptr))) {
   const Vec3<Lanes> none{0.0, 0.0, 0.0};
   offsets_.assign(states_.size(), {none, none});
+  stiffening_.resize(states_.size());
+  for (int e = 0; e < elements_; ++e)
+    for (int l = 0; l < kLanes; ++l) SetStiffening(e, l, {});
+  laws_.resize(states_.size());
 }
 
 template <class T>
@@ -125,11 +125,17 @@ void ElementChain<T>::SetOffset(int element, int lane, const Vec3<double>& offse
 }
 
 template <class T>
+void ElementChain<T>::SetStiffening(int element, int lane, const Stiffening<double>& by) {
+  const bool one = kLaneCount<T> == 1;
+  SetLane(&stiffening_[one ? element / kLanes : element], one ? element % kLanes : lane, by);
+}
+
+template <class T>
 ElementStress ElementChain<T>::Stress(int element, int lane) const {
   const bool one = kLaneCount<T> == 1;
-  const ElementState<Lanes>& e = states_[one ? element / kLanes : element];
-  const int l = one ? element % kLanes : lane;
-  const double one_over_h = one_over_h_[one ? 0 : lane];
+  const int entry = one ? element / kLanes : element, l = one ? element % kLanes : lane;
+  const ElementState<Lanes>& e = states_[entry];
+  const double one_over_h = laws_[entry].one_over_h[l];
   return {one_over_h * Lane(e.u, l),
           one_over_h * Lane(e.u_rate, l),
           one_over_h * Lane(e.theta, l),
@@ -138,12 +144,17 @@ ElementStress ElementChain<T>::Stress(int element, int lane) const {
           Lane(e.m, l)};
 }
 
+template <class T>
+Bowing<double> ElementChain<T>::BowingOf(int element, int lane) const {
+  const bool one = kLaneCount<T> == 1;
+  return GetLane(laws_[one ? element / kLanes : element].bowing, one ? element % kLanes : lane);
+}
+
 template <>
 COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* nodes,
                                                           const ElementLaw<double>& law,
                                                           Vec6<double>* rhs) {
-  const ScaledLaw<Lanes> wide(Broadcast(law));
-  one_over_h_ = wide.one_over_h;
+  const ScaledLaw<Lanes> slack(Broadcast(law));
   const Node<double>* lefts = nodes;
   if (!joints_.empty()) {
     seen_.resize(elements_);
@@ -159,9 +170,11 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
       return Gather(at(from, 0), at(from, 1), at(from, 2), at(from, 3));
     };
     ElementState<Lanes>& state = states_[first / kLanes];
-    EvaluateStrain(gather(lefts), gather(nodes + 1), wide.arc, &state);
-    EvaluateStress(wide, offsets_[first / kLanes], &state);
-    const ElementForces<Lanes> forces = EvaluateForces(state);
+    ScaledLaw<Lanes>& own = laws_[first / kLanes];
+    own = ScaledLaw<Lanes>(slack, stiffening_[first / kLanes], Lanes(1.0));
+    EvaluateStrain(gather(lefts), gather(nodes + 1), own.bowing, &state);
+    EvaluateStress(own, offsets_[first / kLanes], &state);
+    const ElementForces<Lanes> forces = EvaluateForces(state, own.bowing);
     const int lanes = std::min(kLanes, elements_ - first);
     for (int l = 0; l < lanes; ++l) {
       ElementForces<double> one = {Lane(forces.f, l), Lane(forces.g1, l), Lane(forces.g2, l)};
@@ -173,11 +186,13 @@ COSSERAT_CABLE_KERNEL void ElementChain<double>::Evaluate(const Node<double>* no
 
 template <>
 COSSERAT_CABLE_KERNEL void ElementChain<double>::AssembleTangent(
-    const double& h, const Vec3<double>& gamma0, const Vec3<double>& C_F, const Vec3<double>& C_M,
-    BlockTridiagonal<double>* system) const {
-  const TangentLaw<Lanes> law(h, Broadcast(gamma0), Broadcast(C_F), Broadcast(C_M));
+    double rate_factor, BlockTridiagonal<double>* system) const {
+  const Lanes by_rate(rate_factor);
   ClearFront(system);
   for (int first = 0; first < elements_; first += kLanes) {
+    const ScaledLaw<Lanes>& own = laws_[first / kLanes];
+    const TangentLaw<Lanes> law{own.bowing, own.C_F + by_rate * own.V_F,
+                                own.C_M + by_rate * own.V_M};
     const ElementTangent<Lanes> k = EvaluateTangent(states_[first / kLanes], law);
     const int lanes = std::min(kLanes, elements_ - first);
     for (int l = 0; l < lanes; ++l) {

@@ -21,7 +21,8 @@ constexpr double kEnergyBlind = 1e-7;
 constexpr double kMaxTurn = 0.4;  // rad of one node in one iteration
 constexpr double kMaxMove = 0.1;  // of the length, likewise
 constexpr double kSufficientDecrease = 1e-4;
-constexpr double kFirstShift = 1e-3;     // in units of the bending stiffness of one element
+constexpr double kFirstShift = 1e-3;     // in units of what one element bends with
+constexpr double kPull = 5;              // the tension's part in that unit
 constexpr double kSmallestShift = 1e-7;  // below, none
 constexpr double kLargestShift = 1e9;
 constexpr int kMaxHalvings = 30;
@@ -33,19 +34,21 @@ constexpr double kStrainNoise = 1e-10;
 // Turning nodes along straight lines stretches the elements between them, by half the square of the
 // turn: the stiffer the rod, the shorter Newton's steps. So the shape is found with a rod in which
 // stretching costs little more than bending, which is then stiffened.
-constexpr double kSoftBending = 1e3;  // C_F of that rod at least, in C_M / length^2
-constexpr double kSoftWeight = 30;    // the same, in weights of the rod
-constexpr double kStiffening = 10;    // from one rod to the next
-constexpr double kStageTolerance = 1e-3;
+constexpr double kSoftBending = 1e3;      // C_F of that rod at least, in C_M / length^2
+constexpr double kSoftWeight = 30;        // the same, in weights of the rod
+constexpr double kStiffening = 10;        // from one rod to the next
+constexpr double kStageTolerance = 1e-3;  // a stage need not be stable: it is only on the way
 constexpr int kStageIterations = 60;
+
+// The law at the tensions of the last round: what is left of their change is squared in the shape.
+constexpr double kTensionTolerance = 1e-9;  // of the bending stiffness
+constexpr int kMaxTensionRounds = 20;
 
 }  // namespace
 
 SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load* load) {
   const int first = first_free(), last = last_free();
   const double bending = std::min(w.law.C_M.x, w.law.C_M.y);
-  const double rotation_scale = bending / h;               // [N m]
-  const double translation_scale = bending / (h * h * h);  // [N/m]
 
   const LaneView<double> view(&w, 0);
   const double unstrained_noise = kStrainNoise * kStrainNoise * w.law.C_F.z * model.length;
@@ -67,6 +70,13 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
   std::vector<Vec6<double>> internal, gradient;  // minus the energy's, without and with the load
   while (report.iterations < max_iterations) {
     ++report.iterations;
+    // What an element bends with, and what it is pulled with: where a taut one is turned by more
+    // than half a radian, twisting it is in error by a part of the latter.
+    double tightest = 0;
+    for (int e = 0; e < model.elements; ++e)
+      tightest = std::max(tightest, std::abs(w.chain.Stress(e, 0).n.z));
+    const double rotation_scale = bending / h + kPull * tightest * h;  // [N m]
+    const double translation_scale = rotation_scale / (h * h);         // [N/m]
     // Newton direction, with the smallest shift that makes the Hessian positive definite.
     internal = w.rhs;
     for (;;) {
@@ -128,7 +138,8 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
       if (shift > kLargestShift) return report;
       continue;
     }
-    if (rounding || (shift <= kFirstShift && report.correction < tolerance)) {
+    const bool stable = shift <= kFirstShift || tolerance >= kStageTolerance;
+    if (rounding || (stable && report.correction < tolerance)) {
       report.converged = true;
       break;
     }
@@ -151,6 +162,8 @@ void Rod::Impl::Soften(const Load* load, SolveReport* report) {
   const V3 C_F = w.law.C_F, C_M = w.law.C_M;
   const double weight = model.section.rhoA * length * std::sqrt(Dot(w.gravity, w.gravity));
   const std::vector<NodeState> from = w.trial;
+  std::fill(tension.begin(), tension.end(), 0.0);
+  StiffenElements();
   bool converged = true;
   for (double soft = std::max(kSoftBending * std::max(C_M.x, C_M.y) / (length * length),
                               kSoftWeight * weight);
@@ -159,17 +172,25 @@ void Rod::Impl::Soften(const Load* load, SolveReport* report) {
     const SolveReport stage = Minimise(kStageTolerance, kStageIterations, load);
     report->iterations += stage.iterations;
     converged = stage.converged;
+    if (converged) UpdateTensions();
   }
   // Without bending stiffness worth the name, the soft rod's tension bends the stiffer one zigzag.
-  if (!converged) w.trial = from;
+  if (!converged) {
+    w.trial = from;
+    std::fill(tension.begin(), tension.end(), 0.0);
+    StiffenElements();
+  }
   w.law.C_F = C_F;
 }
 
 void Rod::Impl::FinishStatics(const Load* load, SolveReport* report) {
-  const int before = report->iterations;
-  *report = Minimise(kTolerance, kMaxIterations, load);
-  report->iterations += before;
-  if (!report->converged) return;
+  int iterations = report->iterations;
+  for (int round = 0; round < kMaxTensionRounds; ++round) {
+    *report = Minimise(kTolerance, kMaxIterations, load);
+    report->iterations = iterations += report->iterations;
+    if (!report->converged) return;
+    if (UpdateTensions() < kTensionTolerance) break;
+  }
   // At the clamps, what is left of the forces is what they must supply.
   if (load) AddLoad(*load, 0, false, 0.0, &w);
   TakeRest();

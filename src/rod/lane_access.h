@@ -65,6 +65,62 @@ void SetLane(Persistence<T>* persistence, int lane, const Persistence<double>& v
 }
 
 template <class T>
+void SetLane(Bowing<T>* bowing, int lane, const Bowing<double>& value) {
+  SetLane(&bowing->along_normal, lane, value.along_normal);
+  SetLane(&bowing->along_chord, lane, value.along_chord);
+  SetLane(&bowing->twist, lane, value.twist);
+  SetLane(&bowing->bend_x, lane, value.bend_x);
+  SetLane(&bowing->bend_y, lane, value.bend_y);
+}
+template <class T>
+Bowing<double> GetLane(const Bowing<T>& b, int lane) {
+  return {GetLane(b.along_normal, lane), GetLane(b.along_chord, lane), GetLane(b.twist, lane),
+          GetLane(b.bend_x, lane), GetLane(b.bend_y, lane)};
+}
+
+template <class T>
+void SetLane(BeamColumnAxis<T>* axis, int lane, const BeamColumnAxis<double>& value) {
+  SetLane(&axis->slenderness, lane, value.slenderness);
+  SetLane(&axis->C_M, lane, value.C_M);
+  SetLane(&axis->V_M, lane, value.V_M);
+  SetLane(&axis->C_F, lane, value.C_F);
+  SetLane(&axis->V_F, lane, value.V_F);
+}
+template <class T>
+void SetLane(BeamColumn<T>* column, int lane, const BeamColumn<double>& value) {
+  SetLane(&column->x, lane, value.x);
+  SetLane(&column->y, lane, value.y);
+  SetLane(&column->bend, lane, value.bend);
+  SetLane(&column->shear, lane, value.shear);
+}
+
+template <class T>
+AxisStiffening<double> GetLane(const AxisStiffening<T>& axis, int lane) {
+  return {GetLane(axis.C_M, lane), GetLane(axis.V_M, lane), GetLane(axis.C_F, lane),
+          GetLane(axis.V_F, lane)};
+}
+template <class T>
+void SetLane(AxisStiffening<T>* axis, int lane, const AxisStiffening<double>& value) {
+  SetLane(&axis->C_M, lane, value.C_M);
+  SetLane(&axis->V_M, lane, value.V_M);
+  SetLane(&axis->C_F, lane, value.C_F);
+  SetLane(&axis->V_F, lane, value.V_F);
+}
+template <class T>
+void SetLane(Stiffening<T>* by, int lane, const Stiffening<double>& value) {
+  SetLane(&by->x, lane, value.x);
+  SetLane(&by->y, lane, value.y);
+  SetLane(&by->bend_x, lane, value.bend_x);
+  SetLane(&by->bend_y, lane, value.bend_y);
+  SetLane(&by->along_chord, lane, value.along_chord);
+}
+template <class T>
+Stiffening<double> GetLane(const Stiffening<T>& by, int lane) {
+  return {GetLane(by.x, lane), GetLane(by.y, lane), GetLane(by.bend_x, lane),
+          GetLane(by.bend_y, lane), GetLane(by.along_chord, lane)};
+}
+
+template <class T>
 void SetLane(ElementLaw<T>* law, int lane, const ElementLaw<double>& value) {
   SetLane(&law->h, lane, value.h);
   SetLane(&law->C_F, lane, value.C_F);
@@ -72,6 +128,8 @@ void SetLane(ElementLaw<T>* law, int lane, const ElementLaw<double>& value) {
   SetLane(&law->V_F, lane, value.V_F);
   SetLane(&law->V_M, lane, value.V_M);
   SetLane(&law->gamma0, lane, value.gamma0);
+  SetLane(&law->bowing, lane, value.bowing);
+  SetLane(&law->column, lane, value.column);
 }
 
 template <class T>

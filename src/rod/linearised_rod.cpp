@@ -46,12 +46,13 @@ Eigen::Matrix<double, kRows, 12> Derivatives(const Node<double>& a, const Node<d
 
 /// What an element exerts under the force and moment of `stress`, wherever its nodes are.
 Vector12 ElementResidual(const Quat<double>& joint, const Node<double>& a, const Node<double>& b,
-                         double arc, const ElementStress& stress) {
+                         const Bowing<double>& bowing, const ElementStress& stress) {
   ElementState<double> state;
-  EvaluateStrain<double>(SeenThrough(joint, a), b, arc, &state);
+  EvaluateStrain<double>(SeenThrough(joint, a), b, bowing, &state);
   state.n = stress.n;
-  state.m_theta = stress.m + MomentOfArc(stress.n, state.theta, arc);
-  ElementForces<double> forces = EvaluateForces(state);
+  state.m = stress.m;
+  BowStress(bowing, &state);
+  ElementForces<double> forces = EvaluateForces(state, bowing);
   TurnBack({joint, {1, 0, 0, 0}}, &forces);
   Vector12 residual;
   residual << -forces.f.x, -forces.f.y, -forces.f.z, forces.g1.x, forces.g1.y, forces.g1.z,
@@ -61,9 +62,9 @@ Vector12 ElementResidual(const Quat<double>& joint, const Node<double>& a, const
 
 /// Strains of an element, times its length.
 Eigen::Matrix<double, 6, 1> ElementStrains(const Quat<double>& joint, const Node<double>& a,
-                                           const Node<double>& b, double arc) {
+                                           const Node<double>& b, const Bowing<double>& bowing) {
   ElementState<double> state;
-  EvaluateStrain<double>(SeenThrough(joint, a), b, arc, &state);
+  EvaluateStrain<double>(SeenThrough(joint, a), b, bowing, &state);
   Eigen::Matrix<double, 6, 1> strains;
   strains << state.u.x, state.u.y, state.u.z, state.theta.x, state.theta.y, state.theta.z;
   return strains;
@@ -88,6 +89,7 @@ void ClearTangent(StepWorkspace<double>* w) {
 
 LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli_of,
                              const std::vector<Quat<double>>& joints, const EndParts& ends,
+                             const std::vector<Stiffening<double>>& stiffening,
                              const std::vector<bool>& held_of, const Load* load,
                              StepWorkspace<double>* w)
     : held(held_of),
@@ -108,24 +110,37 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   EvaluateForces(w);
   if (load) AddLoad(*load, 0, false, 0.0, w);
   const Vec6<double> missing[] = {w->rhs.front(), w->rhs.back()};
-  const double h = w->law.h, arc = ArcFactor(h, w->law.gamma0);
+  const double h = w->law.h;
   material.assign(kComponents, SymmetricBands(w->count));
   for (int e = 0; e + 1 < w->count; ++e) {
     const Node<double>&a = w->trial[e], &b = w->trial[e + 1];
     const Quat<double> joint = joints.empty() ? Quat<double>{1, 0, 0, 0} : joints[e];
     // How the forces turn with the nodes, at constant stress.
     const ElementStress stress = w->chain.Stress(e, 0);
+    const Bowing<double> bowing = w->chain.BowingOf(e, 0);
     const Eigen::Matrix<double, 12, 12> turning =
         Derivatives<12>(a, b, h, [&](const auto& one, const auto& two) {
-          return ElementResidual(joint, one, two, arc, stress);
+          return ElementResidual(joint, one, two, bowing, stress);
         });
     // The skew part adds up to the moments that a node lacks to balance: zero.
     AddElement(e, 0.5 * (turning + turning.transpose()), &geometric);
     const Eigen::Matrix<double, 6, 12> strains = Derivatives<6>(
         a, b, h,
-        [&](const auto& one, const auto& two) { return ElementStrains(joint, one, two, arc); });
-    for (int i = 0; i < kComponents; ++i)
-      AddElement(e, moduli[i].C / h * strains.row(i).transpose() * strains.row(i), &material[i]);
+        [&](const auto& one, const auto& two) { return ElementStrains(joint, one, two, bowing); });
+    const auto add = [&](int strain, double stiffness, int as_in) {
+      AddElement(e, stiffness / h * strains.row(strain).transpose() * strains.row(strain),
+                 &material[as_in]);
+    };
+    for (int i = 0; i < kComponents; ++i) add(i, moduli[i].C, i);
+    // What a tension adds is bending's, whatever strain it is of.
+    const Stiffening<double>& by = stiffening[e];
+    if (by.x.C_M == 0 && by.y.C_M == 0) continue;
+    const double bending1 = moduli[3].C / w->law.column.x.C_M;
+    const double bending2 = moduli[4].C / w->law.column.y.C_M;
+    add(0, bending2 * by.y.C_F, 4);
+    add(1, bending1 * by.x.C_F, 3);
+    add(3, bending1 * by.x.C_M, 3);
+    add(4, bending2 * by.y.C_M, 4);
   }
   if (load) {
     const auto of_load = [&](double rate_factor) {

@@ -24,10 +24,12 @@ struct LinearisedRod {
   enum Component { kShear1, kShear2, kStretch, kBend1, kBend2, kTwist, kComponents };
 
   /// At the iterate of `w`, which is an equilibrium under its static law and `load`. `held`: by
-  /// unknown. Overwrites the law, the right-hand side and the system of `w`.
+  /// unknown; `stiffening`: by element, what is in that law. Overwrites the law, the right-hand
+  /// side and the system of `w`.
   LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli,
                 const std::vector<Quat<double>>& joints, const EndParts& ends,
-                const std::vector<bool>& held, const Load* load, StepWorkspace<double>* w);
+                const std::vector<Stiffening<double>>& stiffening, const std::vector<bool>& held,
+                const Load* load, StepWorkspace<double>* w);
 
   int unknowns() const { return static_cast<int>(held.size()); }
   /// K(0).

@@ -203,7 +203,7 @@ std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
   m.PrepareStatics();
   const int unknowns = 6 * m.w.count;
   const std::vector<bool> held = HeldUnknowns(m.model, unknowns);
-  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, held, load, &m.w);
+  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, held, load, &m.w);
   const Directions directions(rod, linear);
 
   const double length = m.model.length;

@@ -5,6 +5,17 @@
 #include "rod_impl.h"
 
 namespace cosserat_cable::rod {
+namespace {
+
+/// Seen from the other end.
+Bowing<double> Backwards(const Bowing<double>& b) {
+  return {b.along_normal, -b.along_chord, -b.twist, -b.bend_x, -b.bend_y};
+}
+BeamColumn<double> Backwards(const BeamColumn<double>& column) {
+  return {column.x, column.y, -column.bend, -column.shear};
+}
+
+}  // namespace
 
 void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b) {
   if (!energy.open()) {
@@ -47,6 +58,10 @@ void Rod::Impl::FillLaw(int rod_lane, StepChain<T>* chain, double* dt_there) con
     SetLane(&chain->gravity, lane, w.gravity);
     SetLane(&chain->law, lane, law_of_step_);
     SetLane(&chain->law.gamma0, lane, forwards * law_of_step_.gamma0);
+    if (forwards < 0) {
+      SetLane(&chain->law.bowing, lane, Backwards(law_of_step_.bowing));
+      SetLane(&chain->law.column, lane, Backwards(law_of_step_.column));
+    }
     SetLane(&chain->unbend, lane, forwards * unbend);
     ChainShearLaw<T>& shear_law = chain->shear_law;
     SetLane(&shear_law.x, lane, step1);
@@ -134,6 +149,11 @@ ElementStress Rod::Impl::StressIn(const StepChain<T>& chain, int entry, int lane
   found.n = {shear1.Force(shear[element][0]), shear2.Force(shear[element][1]),
              s.C_F.z() * beyond.gamma.z() + s.V_F.z() * beyond.gamma_dot.z()};
   found.m = ToSmall(m);
+  const Stiffening<double>& by = stiffening[element];
+  found.n += {by.y.C_F * found.gamma.x + by.y.V_F * found.gamma_dot.x,
+              by.x.C_F * found.gamma.y + by.x.V_F * found.gamma_dot.y, 0};
+  found.m += {by.x.C_M * found.kappa.x + by.x.V_M * found.kappa_dot.x,
+              by.y.C_M * found.kappa.y + by.y.V_M * found.kappa_dot.y, 0};
   return found;
 }
 
@@ -152,6 +172,9 @@ void Rod::Impl::TakeState(const StepChain<T>& chain, int rod_lane) {
   for (int e = 0; e < model.elements; ++e) {
     const ChainLayout::Place at = layout.OfElement(e, rod_lane);
     shear[e] = GetLane(chain.shear[at.entry], at.lane);
+    tension[e] = GetLane(chain.tension[at.entry], at.lane);
+    stiffening[e] =
+        chain.taut ? GetLane(chain.stiffening[at.entry], at.lane) : Stiffening<double>{};
     stress_[e] = StressIn(chain, at.entry, at.lane, e);
     if (branches.empty()) continue;
     stress_[e].n += ToSmall(branch_stress_[e].F);

@@ -9,9 +9,17 @@ double Rod::Impl::StaticEnergy() const {
   for (int e = 0; e < model.elements; ++e) {
     const ElementStress now = w.chain.Stress(e, 0);
     const V3 gamma = now.gamma - w.law.gamma0, kappa = now.kappa - kappa0;
-    energy += 0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa)));
+    energy +=
+        0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa))) +
+        h * StiffeningEnergy(e, now.gamma, now.kappa);
   }
   return energy + ends.a.SpringEnergy(w.trial.front()) + ends.b.SpringEnergy(w.trial.back());
+}
+
+double Rod::Impl::StiffeningEnergy(int element, const V3& gamma, const V3& kappa) const {
+  const Stiffening<double>& by = stiffening[element];
+  return 0.5 * (by.y.C_F * gamma.x * gamma.x + by.x.C_F * gamma.y * gamma.y +
+                by.x.C_M * kappa.x * kappa.x + by.y.C_M * kappa.y * kappa.y);
 }
 
 double Rod::Impl::GravityEnergy(const std::vector<NodeState>& nodes) const {
@@ -36,7 +44,8 @@ double Rod::Impl::ElasticEnergy() const {
     const Eigen::Vector3d &gamma = strain.gamma, &kappa = strain.kappa;
     energy += h * (shear1.Energy(shear[e][0], gamma.x()) + shear2.Energy(shear[e][1], gamma.y()) +
                    0.5 * model.section.C_F.z() * gamma.z() * gamma.z() +
-                   0.5 * kappa.dot(model.section.C_M.cwiseProduct(kappa)) + branches.Energy(e));
+                   0.5 * kappa.dot(model.section.C_M.cwiseProduct(kappa)) + branches.Energy(e) +
+                   StiffeningEnergy(e, Stress(e).gamma, Stress(e).kappa));
   }
   return energy + ends.a.SpringEnergy(w.node.front()) + ends.b.SpringEnergy(w.node.back());
 }

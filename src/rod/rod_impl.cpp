@@ -41,6 +41,8 @@ Rod::Impl::Impl(const RodModel& m)
       ends{EndPart(m.a), EndPart(m.b)},
       w(m.elements),
       shear(m.elements),
+      tension(m.elements, 0.0),
+      stiffening(m.elements, Stiffening<double>{}),
       missing_a{},
       missing_b{},
       law_of_step_{},
@@ -101,11 +103,51 @@ void Rod::Impl::PrepareStatics() {
            ToSmall(model.section.C_M),
            none,
            none,
-           ToSmall(model.section.gamma0)};
+           ToSmall(model.section.gamma0),
+           SlackBowing(),
+           Column()};
   w.law.C_F += ToSmall(more.F);
   w.law.C_M += ToSmall(more.M);
   const V3 unbend = -Scale(w.law.C_M, ToSmall(model.section.kappa0));
   for (int e = 0; e < model.elements; ++e) w.chain.SetOffset(e, 0, none, unbend);
+  StiffenElements();
+}
+
+Bowing<double> Rod::Impl::SlackBowing() const {
+  const double arc = h / 24, bent1 = shear1.bending_part(), bent2 = shear2.bending_part();
+  const double along_chord = 1 - (1 - bent1) * (1 - bent2) + 0.2 * bent1 * bent2;
+  return {1 - along_chord, along_chord, arc, arc, arc};
+}
+
+BeamColumn<double> Rod::Impl::Column() const {
+  const Section& s = model.section;
+  const auto axis = [&](double EI, double eta_EI, double bent) {
+    const double by_shear = 12 * bent * bent / (h * h);
+    return BeamColumnAxis<double>{h * h / (4 * EI), EI, eta_EI, by_shear * EI, by_shear * eta_EI};
+  };
+  const double bent1 = shear1.bending_part(), bent2 = shear2.bending_part();
+  return {axis(s.C_M.x(), s.V_M.x(), bent2), axis(s.C_M.y(), s.V_M.y(), bent1), h, bent1 * bent2};
+}
+
+void Rod::Impl::StiffenElements() {
+  for (int e = 0; e < model.elements; ++e) {
+    stiffening[e] = EvaluateStiffening(w.law.column, tension[e]);
+    w.chain.SetStiffening(e, 0, stiffening[e]);
+  }
+}
+
+double Rod::Impl::UpdateTensions() {
+  double change = 0;
+  for (int e = 0; e < model.elements; ++e) {
+    tension[e] = w.chain.Stress(e, 0).n.z;
+    const AxisStiffening<double> before[] = {stiffening[e].x, stiffening[e].y};
+    stiffening[e] = EvaluateStiffening(w.law.column, tension[e]);
+    w.chain.SetStiffening(e, 0, stiffening[e]);
+    change =
+        std::max({change, std::abs(stiffening[e].x.C_M - before[0].C_M) / model.section.C_M.x(),
+                  std::abs(stiffening[e].y.C_M - before[1].C_M) / model.section.C_M.y()});
+  }
+  return change;
 }
 
 ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
@@ -116,7 +158,9 @@ ElementLaw<double> Rod::Impl::LawOfStep(double dt) {
                                     ToSmall(model.section.C_M),
                                     {shear1.V(), shear2.V(), model.section.V_F.z()},
                                     ToSmall(model.section.V_M),
-                                    ToSmall(model.section.gamma0)};
+                                    ToSmall(model.section.gamma0),
+                                    SlackBowing(),
+                                    Column()};
   if (!branches.empty()) {
     branches.BeginStep(dt);
     const SectionValue more = branches.StepStiffness();

@@ -43,6 +43,8 @@ struct Rod::Impl {
   // from where it is; what the end nodes are is always known.
   StepWorkspace<double> w;
   std::vector<ShearHistory> shear;
+  std::vector<double> tension;                 // what the next law is evaluated at [N]
+  std::vector<Stiffening<double>> stiffening;  // of the law that stresses are of
   RodAddress address;
 
   Vec6<double> missing_a, missing_b;  // what the end nodes lack to balance: the clamps supply it
@@ -57,6 +59,11 @@ struct Rod::Impl {
   int last_free() const { return model.b.clamped() ? w.count - 2 : w.count - 1; }
 
   void PrepareStatics();
+  /// The law at `tension`, for statics.
+  void StiffenElements();
+  /// Takes over the tensions of the iterate; returns the largest change of what they make of the
+  /// law, relative to the bending stiffness.
+  double UpdateTensions();
   /// Minimises the energy of the rod with the law in `w` by moving its iterate, until a correction
   /// is below `tolerance`.
   SolveReport Minimise(double tolerance, int max_iterations, const Load* load);
@@ -106,6 +113,8 @@ struct Rod::Impl {
 
   /// Of the iterate that was evaluated last, at rest.
   double StaticEnergy() const;
+  /// Of what tensions add to the law, in the element at these strains, per length [J/m].
+  double StiffeningEnergy(int element, const V3& gamma, const V3& kappa) const;
   double GravityEnergy(const std::vector<NodeState>& nodes) const;
   /// Of the state.
   double KineticEnergy() const;
@@ -115,6 +124,8 @@ struct Rod::Impl {
   PairMemory pair;
 
  private:
+  Bowing<double> SlackBowing() const;
+  BeamColumn<double> Column() const;
   template <class T>
   void FillJoints(int lane, StepChain<T>* chain) const;
   ElementStrain StrainOf(const ElementStress& stress) const;

@@ -78,6 +78,8 @@ class ShearSeries {
   /// Q at this state [N].
   double Force(const History& now) const { return GA_ * now.g1 + viscous_ * (now.G - now.g1); }
   double static_stiffness() const { return GA_ * target_C_; }  ///< [N]
+  /// The part of a shear at rest that is the element's residual bending.
+  double bending_part() const { return GA_ / sum_; }
 
   /// Q by Gamma for motion as exp(lambda t), (GA + lambda eta_GA)(B + lambda eta_B)/(GA + B +
   /// lambda (eta_GA + eta_B)), in partial fractions.

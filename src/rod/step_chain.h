@@ -157,6 +157,9 @@ struct StepChain {
         state(layout.chain_elements + 1),
         shear(layout.chain_elements),
         next_shear(shear.size()),
+        tension(shear.size(), T(0.0)),
+        stiffening(shear.size()),
+        taut_laws(shear.size()),
         nodes(state.size()),
         masses(state.size()),
         shear_offsets(layout.chain_elements),
@@ -208,7 +211,7 @@ struct StepChain {
   T free[2] = {1.0, 1.0};
   T exists = 1.0;   // 0 where the first element is nowhere
   Vec3<T> gravity;  // [m/s^2]
-  ElementLaw<T> law;
+  ElementLaw<T> law{};
   ChainShearLaw<T> shear_law;
   Vec3<T> unbend;         // what an unstressed curvature adds to the moment [N m]
   bool branched = false;  // whether any rod's section has more than its Kelvin-Voigt elements
@@ -216,6 +219,12 @@ struct StepChain {
   std::vector<ChainState<T>> state;
   Persistence<T> persistence;
   std::vector<ChainShear<T>> shear, next_shear;  // the latter is of a step that is being accepted
+  // The elements' tensions, as the rod itself sees them, at the last instant [N]; where any
+  // matters, what they make of the laws of the step.
+  std::vector<T> tension;
+  bool taut = false;
+  std::vector<Stiffening<T>> stiffening;
+  std::vector<ScaledLaw<T>> taut_laws;
 
   std::vector<ChainNode<T>> nodes;
   std::vector<NodeMass<T>> masses;

@@ -13,8 +13,7 @@ void EvaluateForces(StepWorkspace<double>* w) {
 }
 
 void AssembleTangent(double rate_factor, StepWorkspace<double>* w) {
-  w->chain.AssembleTangent(w->law.h, w->law.gamma0, w->law.C_F + rate_factor * w->law.V_F,
-                           w->law.C_M + rate_factor * w->law.V_M, &w->system);
+  w->chain.AssembleTangent(rate_factor, &w->system);
 }
 
 COSSERAT_CABLE_KERNEL
