@@ -257,21 +257,21 @@ class Options(unittest.TestCase):
         return self.json('modes.json')['cables']['loom']['modes'][0]['frequency']
 
     def test_joints_place_the_clamps(self):
-        self.record(angle=lambda t: 0.4 * t)
+        self.record(angle=lambda t: -0.3 * t)
         code, text = self.modes()
         self.assertEqual(code, 0, text)
         at_zero = self.frequency()
-        code, text = self.modes('--joints', 'rocker_joint=0.4')
+        code, text = self.modes('--joints', 'rocker_joint=-0.3')
         self.assertEqual(code, 0, text)
         by_joints = self.frequency()
-        self.assertIn('rocker_joint 0.4', text)
-        self.assertEqual(self.json('modes.json')['joints']['rocker_joint'], 0.4)
+        self.assertIn('rocker_joint -0.3', text)
+        self.assertEqual(self.json('modes.json')['joints']['rocker_joint'], -0.3)
         self.assertGreater(abs(by_joints / at_zero - 1), 1e-3)
         # The same place in a recording, at its end.
         code, text = self.modes('--bag', self.path('in.bag'), '--time', '1')
         self.assertEqual(code, 0, text)
         self.assertIn('gravity 9.81 m/s^2 along -z of odom', text)
-        self.assertAlmostEqual(self.json('modes.json')['joints']['rocker_joint'], 0.4, delta=1e-9)
+        self.assertAlmostEqual(self.json('modes.json')['joints']['rocker_joint'], -0.3, delta=1e-9)
         # Only rounding differs.
         self.assertAlmostEqual(self.frequency() / by_joints, 1, delta=1e-6)
 
