@@ -83,8 +83,10 @@ class Source:
 class BagTopics:
     """The messages of one bag, read as often as somebody asks."""
 
-    def __init__(self, path, problems):
+    def __init__(self, path, problems, use_record_times=False):
+        """`use_record_times`: instead of the messages' stamps."""
         self.path, self.problems, self.bag, self.types = path, problems, None, {}
+        self.use_record_times = use_record_times
         try:
             self.bag = rosbag.Bag(path)
         except rosbag.ROSBagUnindexedException:
@@ -191,37 +193,48 @@ class BagTopics:
         parent, child = source.frames
         rows, seen = [], set()
         topics = [name for name, kind in self.types.items() if kind in TF_TYPES]
-        for _, message, _ in self.bag.read_messages(topics=topics):
+        for _, message, recorded in self.bag.read_messages(topics=topics):
             for transform in message.transforms:
                 pair = (transform.header.frame_id.strip('/'), transform.child_frame_id.strip('/'))
                 seen.add(pair)
                 if pair == (parent, child):
-                    rows.append((transform.header.stamp.to_sec(),
+                    rows.append((transform.header.stamp, recorded,
                                  POSES['geometry_msgs/TransformStamped'](transform)))
         if not rows:
             self.problems.add(where, f"no transform from '{parent}' to '{child}' in {self.path}"
                               + tool.nearest(f'tf:{parent}:{child}',
                                              [f'tf:{p}:{c}' for p, c in sorted(seen)]))
             return None
-        return self._ordered(rows, source.text, where)
+        return self._timed(rows, source.text, where)
 
     def _series(self, topic, value, where, empty_is_wrong=True):
         rows = []
-        unstamped = False
         for _, message, recorded in self.bag.read_messages(topics=[topic]):
             row = value(message)
             if row is None:
                 continue
             stamp = getattr(getattr(message, 'header', None), 'stamp', None)
-            unstamped = unstamped or not stamp
-            rows.append(((stamp or recorded).to_sec(), row))
+            rows.append((stamp, recorded, row))
         if not rows and empty_is_wrong:
             self.problems.add(where, f'{topic}: no message')
             return None
-        if unstamped:
-            self.notes.append(f'{topic}: messages without a stamp have the time at which they were '
-                              'recorded, whose delay is not known')
-        return self._ordered(rows, topic, where)
+        return self._timed(rows, topic, where)
+
+    def _timed(self, rows, name, where):
+        """Series of (stamp, time of recording, row). Stamps and times of recording do not mix: a
+        delay of some milliseconds would come and go."""
+        unstamped = sum(not stamp for stamp, _, _ in rows)
+        if unstamped not in (0, len(rows)) and not self.use_record_times:
+            self.problems.add(where, f'{name}: {unstamped} of {len(rows)} messages have no stamp: '
+                              '--use-record-times takes the times at which all were recorded')
+            return None
+        by_record = self.use_record_times or unstamped
+        if by_record:
+            self.notes.append(f'{name}: messages ' + ('without a stamp ' if unstamped else '')
+                              + 'have the time at which they were recorded, whose delay is not '
+                                'known')
+        return self._ordered([((recorded if by_record else stamp).to_sec(), row)
+                              for stamp, recorded, row in rows], name, where)
 
     def _ordered(self, rows, name, where):
         """By time; the same sample sent twice counts once."""

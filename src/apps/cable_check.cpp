@@ -16,9 +16,10 @@ int main(int argc, char** argv) {
   if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
 
   cosserat_cable::Problems problems;
+  engine.ApplyGravity(&problems);
   const cosserat_cable::Inputs inputs = cosserat_cable::LoadInputs(paths, engine, &problems);
-  if (!json.empty() &&
-      !cosserat_cable::WriteTextFile(json, cosserat_cable::DescribeJson(inputs, problems))) {
+  if (!json.empty() && !cosserat_cable::WriteTextFile(
+                           json, cosserat_cable::DescribeJson(inputs, engine, problems))) {
     std::cerr << json << ": could not be written\n";
     return cosserat_cable::kExitFileTrouble;
   }
@@ -26,6 +27,6 @@ int main(int argc, char** argv) {
     std::cerr << problems.ToString();
     return cosserat_cable::kExitBadInput;
   }
-  std::cout << cosserat_cable::Describe(inputs) << "ok\n";
+  std::cout << cosserat_cable::Describe(inputs, engine) << "ok\n";
   return cosserat_cable::kExitDone;
 }

@@ -10,6 +10,7 @@
 #include <boost/make_shared.hpp>
 #include <cerrno>
 #include <cstring>
+#include <map>
 
 #include "bag_records.h"
 
@@ -168,11 +169,19 @@ void BagFile::ReadEnd(std::uint64_t position, std::uint32_t connections, std::ui
                       const std::function<bool(const std::string&)>& topics) {
   const std::vector<std::uint8_t> bytes = ReadAt(position, size_ - std::min(size_, position));
   Cursor cursor(bytes.data(), bytes.size());
+  std::map<std::uint32_t, TopicContent*> content_of;  // by connection
   for (std::uint32_t i = 0; i < connections; ++i) {
     const Record record(&cursor);
     record.Require(BagRecord::kConnection);
     const ros::M_string header = Record::Fields(cursor.Take(record.data_size));
     const std::string& topic = record.Text("topic");
+    TopicContent* content = content_of[record.Number<std::uint32_t>("conn")] = &contents_[topic];
+    const auto field = [&header](const char* name) {
+      const auto found = header.find(name);
+      return found == header.end() ? std::string() : found->second;
+    };
+    content->type = field("type");
+    content->md5sum = field("md5sum");
     if (topics(topic))
       connections_.push_back(
           {record.Number<std::uint32_t>("conn"), topic, boost::make_shared<ros::M_string>(header)});
@@ -185,8 +194,11 @@ void BagFile::ReadEnd(std::uint64_t position, std::uint32_t connections, std::ui
     chunk.connections = record.Number<std::uint32_t>("count");
     Cursor counts(cursor.Take(record.data_size));
     for (std::uint32_t k = 0; k < chunk.connections; ++k) {
-      chunk.is_wanted = IndexOf(counts.Number<std::uint32_t>()) >= 0 || chunk.is_wanted;
-      counts.Number<std::uint32_t>();
+      const auto connection = counts.Number<std::uint32_t>();
+      chunk.is_wanted = IndexOf(connection) >= 0 || chunk.is_wanted;
+      const auto messages = counts.Number<std::uint32_t>();
+      const auto content = content_of.find(connection);
+      if (content != content_of.end()) content->second->messages += messages;
     }
     chunks_.push_back(chunk);
   }

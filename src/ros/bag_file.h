@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/ros/motion_topics.h"
+
 namespace cosserat_cable {
 
 /// The bag is none, truncated or damaged; `what` says how.
@@ -53,6 +55,8 @@ class BagFile {
 
   /// Of these topics.
   const std::vector<BagConnection>& connections() const { return connections_; }
+  /// Of all topics, wanted or not.
+  const TopicContents& contents() const { return contents_; }
   /// In the order of time.
   const std::vector<Entry>& entries() const { return entries_; }
   /// The message's bytes. Entries that follow each other in time are cheap. Throws BagFormatError.
@@ -78,6 +82,7 @@ class BagFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
   std::vector<BagConnection> connections_;
+  TopicContents contents_;
   std::vector<Chunk> chunks_;
   std::vector<Entry> entries_;
   std::uint32_t open_chunk_ = UINT32_MAX;

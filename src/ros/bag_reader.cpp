@@ -14,16 +14,19 @@
 namespace cosserat_cable {
 namespace {
 
-bool IsStatic(const std::string& topic) { return WithoutSlash(topic) == "tf_static"; }
-
-bool IsMotion(const std::string& topic) {
-  const std::string name = WithoutSlash(topic);
-  return name == "tf" || name == "tf_static" || name == "joint_states";
+bool IsSame(const std::string& topic, const std::string& other) {
+  return WithoutSlash(topic) == WithoutSlash(other);
 }
 
-void CheckTypes(const std::string& path, const BagFile& bag, Problems* problems) {
+bool IsMotion(const std::string& topic, const MotionTopics& topics) {
+  return IsSame(topic, topics.tf) || IsSame(topic, topics.tf_static()) ||
+         IsSame(topic, topics.joint_states);
+}
+
+void CheckTypes(const std::string& path, const BagFile& bag, const MotionTopics& topics,
+                Problems* problems) {
   for (const BagConnection& connection : bag.connections()) {
-    const bool joints = WithoutSlash(connection.topic) == "joint_states";
+    const bool joints = IsSame(connection.topic, topics.joint_states);
     const std::string expected = joints
                                      ? ros::message_traits::MD5Sum<sensor_msgs::JointState>::value()
                                      : ros::message_traits::MD5Sum<tf2_msgs::TFMessage>::value();
@@ -48,9 +51,41 @@ boost::shared_ptr<T> Deserialized(std::vector<std::uint8_t>* bytes) {
   return message;
 }
 
+template <typename T>
+void Serialize(const T& message, std::vector<std::uint8_t>* bytes) {
+  bytes->resize(ros::serialization::serializationLength(message));
+  ros::serialization::OStream stream(bytes->data(), static_cast<std::uint32_t>(bytes->size()));
+  ros::serialization::serialize(stream, message);
+}
+
+// A bag that is made of this one is then as good as one that was stamped.
+void StampWithRecordTime(BagMessage* message) {
+  const ros::Time time = ToRosTime(message->time);
+  if (message->joints) {
+    message->joints->header.stamp = time;
+    Serialize(*message->joints, &message->bytes);
+  } else {
+    for (auto& transform : message->tf->transforms) transform.header.stamp = time;
+    Serialize(*message->tf, &message->bytes);
+  }
+}
+
+void CheckTopics(const std::vector<std::string>& paths, const TopicContents& contents,
+                 const MotionTopics& topics, Problems* problems) {
+  const std::vector<std::string> absent = AbsentTopics(contents, topics);
+  std::string all;
+  for (const std::string& path : paths) all += (all.empty() ? "" : ", ") + path;
+  for (const std::string& sentence : absent) problems->Add(all, sentence);
+  if (absent.empty() && problems->empty()) return;
+  for (const std::string& sentence : UnreadMotion(contents, topics)) problems->Add(all, sentence);
+}
+
 }  // namespace
 
-BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems) {
+BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems, MotionTopics topics)
+    : topics_(std::move(topics)) {
+  Problems types;
+  const auto is_motion = [this](const std::string& topic) { return IsMotion(topic, topics_); };
   for (const std::string& path : paths) {
     struct stat status {};
     if (stat(path.c_str(), &status) != 0) {
@@ -62,8 +97,13 @@ BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems) 
       continue;
     }
     try {
-      auto bag = std::make_unique<BagFile>(path, IsMotion);
-      CheckTypes(path, *bag, problems);
+      auto bag = std::make_unique<BagFile>(path, is_motion);
+      CheckTypes(path, *bag, topics_, &types);
+      for (const auto& [topic, content] : bag->contents()) {
+        const std::uint64_t before = contents_[topic].messages;
+        contents_[topic] = content;
+        contents_[topic].messages += before;
+      }
       bags_.push_back(std::move(bag));
     } catch (const BagUnindexedError&) {
       problems->Add(path, "the bag has no index: run `rosbag reindex " + path + "`");
@@ -72,6 +112,8 @@ BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems) 
                               "); `rosbag reindex " + path + "` may recover what is there");
     }
   }
+  if (!bags_.empty()) CheckTopics(paths, contents_, topics_, &types);
+  problems->Append(types);
   for (const auto& bag : bags_) {
     if (bag->entries().empty()) continue;
     const std::int64_t begin = bag->entries().front().time;
@@ -108,7 +150,7 @@ void BagReader::ForEach(std::int64_t from, std::int64_t to,
     if (!earliest) return;
     const BagFile::Entry& entry = earliest->entries()[(*taken)++];
     const BagConnection& connection = earliest->connections()[entry.connection];
-    const bool is_static = IsStatic(connection.topic);
+    const bool is_static = IsSame(connection.topic, topics_.tf_static());
     if (entry.time > to || (entry.time < from && !is_static)) continue;
     BagMessage message;
     message.time = entry.time;
@@ -116,11 +158,12 @@ void BagReader::ForEach(std::int64_t from, std::int64_t to,
     message.connection = connection.header;
     message.is_static = is_static;
     message.bytes = earliest->Read(entry);
-    if (WithoutSlash(message.topic) == "joint_states") {
+    if (IsSame(message.topic, topics_.joint_states)) {
       message.joints = Deserialized<sensor_msgs::JointState>(&message.bytes);
     } else {
       message.tf = Deserialized<tf2_msgs::TFMessage>(&message.bytes);
     }
+    if (topics_.use_record_times) StampWithRecordTime(&message);
     if (!visit(std::move(message))) return;
   }
 }

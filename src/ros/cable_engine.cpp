@@ -49,6 +49,11 @@ struct CableEngine::Threads {
   oneapi::tbb::task_arena arena;
 };
 
+void EngineOptions::ApplyGravity(Problems* problems) {
+  if (!gravity) return;
+  if (const auto read = ReadGravity(*gravity, problems)) gravity_W = *read;
+}
+
 std::vector<std::string> EngineOptions::Check() const {
   std::vector<std::string> problems;
   const auto require = [&](bool good, const char* what, double value, const char* expected) {
@@ -203,7 +208,7 @@ bool CableEngine::Start(OutputSink* sink) {
   });
   started_ = true;
   news_.push_back("cables settled at " + StampText(now_) + "; the inertial frame is '" +
-                  links_.world() + "'");
+                  links_.world() + "', " + GravityText(options_.gravity_W, links_.world()));
   for (const auto& cable : cables_) cable->Tell(rest, links_.world());
   CollectTold();
   MeasureClearances();
@@ -318,6 +323,7 @@ void CableEngine::TellDiagnostics() {
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ToRosTime(now_);
   message.status.push_back(InputDiagnostics(links_, resets_));
+  AddValue("gravity", GravityText(options_.gravity_W, links_.world()), &message.status.back());
   for (const auto& cable : cables_) message.status.push_back(cable->Diagnostics());
   told_.push_back({now_, Told::kNoCable, std::move(message)});
 }
@@ -348,6 +354,8 @@ std::vector<std::string> CableEngine::TakeNews() {
 Summary CableEngine::MakeSummary() const {
   Summary summary;
   summary.world_frame = links_.world();
+  summary.gravity_W = options_.gravity_W;
+  summary.use_record_times = options_.links.topics.use_record_times;
   summary.simulated_time = static_cast<double>(steps_) * static_cast<double>(dt_) * 1e-9;
   summary.resets = resets_;
   summary.gaps = links_.gap_count();

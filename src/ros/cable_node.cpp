@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/master.h>
 #include <ros/param.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/conversions.h"
 #include "diagnostics.h"
 #include "pace.h"
@@ -117,6 +119,30 @@ Inputs LoadNodeInputs(const NodeOptions& options, Problems* problems) {
   return LoadInputs(paths, options.engine, problems);
 }
 
+// With the time of arrival, which is as near to that of recording as a live node comes.
+tf2_msgs::TFMessage Restamped(tf2_msgs::TFMessage message) {
+  for (auto& transform : message.transforms) transform.header.stamp = ros::Time::now();
+  return message;
+}
+
+sensor_msgs::JointState Restamped(sensor_msgs::JointState message) {
+  message.header.stamp = ros::Time::now();
+  return message;
+}
+
+// What is published under other names than those to which the node listens.
+std::vector<std::string> UnreadTopics(const MotionTopics& topics) {
+  ros::master::V_TopicInfo published;
+  if (!ros::master::getTopics(published)) return {};
+  TopicContents contents;
+  for (const ros::master::TopicInfo& info : published) contents[info.name].type = info.datatype;
+  std::vector<std::string> sentences;
+  for (const std::string& topic : MotionTopicsBesides(contents, topics))
+    sentences.push_back("there is " + topic + " (" + contents[topic].type +
+                        "), which is not read; see ~joint_states, ~tf and ~use_joint_states");
+  return sentences;
+}
+
 // Physics and telemetry are never left out; markers are, while there is no time for them.
 void AdvanceTimed(CableEngine* engine, NodeSink* sink) {
   engine->SendMarkers(!sink->pace()->behind());
@@ -141,19 +167,25 @@ ExitCode RunNode(const NodeOptions& options) {
   NodeSink sink(&node, names);
 
   const auto hints = ros::TransportHints().tcpNoDelay();
+  const MotionTopics& topics = options.engine.links.topics;
+  const bool by_arrival = topics.use_record_times;
   const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage>(
-      "/tf", kInputQueue,
-      [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, false); },
+      topics.tf, kInputQueue,
+      [&](const tf2_msgs::TFMessageConstPtr& message) {
+        engine.Ingest(by_arrival ? Restamped(*message) : *message, false);
+      },
       ros::VoidConstPtr(), hints);
   const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage>(
-      "/tf_static", kInputQueue,
+      topics.tf_static(), kInputQueue,
       [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, true); },
       ros::VoidConstPtr(), hints);
   ros::Subscriber joints;
   if (options.use_joint_states) {
     joints = node.subscribe<sensor_msgs::JointState>(
-        "/joint_states", kInputQueue,
-        [&](const sensor_msgs::JointStateConstPtr& message) { engine.Ingest(*message); },
+        topics.joint_states, kInputQueue,
+        [&](const sensor_msgs::JointStateConstPtr& message) {
+          engine.Ingest(by_arrival ? Restamped(*message) : *message);
+        },
         ros::VoidConstPtr(), hints);
   }
   ROS_INFO_STREAM(names.size() << " cables wait for the transforms of their links");
@@ -168,8 +200,17 @@ ExitCode RunNode(const NodeOptions& options) {
                                   : "cannot keep up with the clock: markers are left out"));
     }
     for (const std::string& news : engine.TakeNews()) ROS_WARN_STREAM(news);
+    if (engine.started()) {
+      const std::string hint = GravityHint(options.engine.gravity_W, engine.links().world());
+      if (!hint.empty()) ROS_WARN_STREAM_ONCE(hint);
+    }
     if (sink.SecondsSinceLast() > kWaitingPeriod) {
-      sink.ReportWaiting(engine.started(), engine.links().Missing());
+      std::vector<std::string> reasons = engine.links().Missing();
+      if (!reasons.empty()) {
+        for (const auto& more : {engine.links().Advice(), UnreadTopics(topics)})
+          reasons.insert(reasons.end(), more.begin(), more.end());
+      }
+      sink.ReportWaiting(engine.started(), reasons);
     }
   }
 

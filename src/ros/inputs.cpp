@@ -10,6 +10,10 @@
 
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/contact/body.h"
+#include "cosserat_cable/input/gravity.h"
+#include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/vehicle/joint_positions.h"
+#include "imu_gravity.h"
 
 namespace cosserat_cable {
 namespace {
@@ -62,6 +66,24 @@ void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs&
   }
 }
 
+// What may be meant otherwise, though it can be simulated.
+void AddNotes(const InputPaths& paths, const EngineOptions& options, const Inputs& inputs,
+              BagSurvey* survey) {
+  const std::string by_name = GravityHint(options.gravity_W, survey->world);
+  if (!by_name.empty()) survey->notes.push_back(by_name);
+  for (std::string& hint :
+       ImuGravityHints(paths.bags, *inputs.bags, inputs.vehicle, *survey, options))
+    survey->notes.push_back(std::move(hint));
+  for (const std::string& name : options.links.held_joints) {
+    const JointModel* joint = inputs.vehicle.FindJoint(name);
+    const double rest = joint != nullptr ? RestPosition(inputs.vehicle, *joint) : 0;
+    if (rest != 0) {
+      survey->notes.push_back("joint '" + name + "' is held at " + FormatRounded(rest, 4) +
+                              ", not at zero: its limits exclude that, or it follows another one");
+    }
+  }
+}
+
 void CheckRecording(const InputPaths& paths, const EngineOptions& options, Inputs* inputs,
                     Problems* problems) {
   const BagReader& bags = *inputs->bags;
@@ -85,12 +107,18 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     return true;
   });
   for (const std::string& reason : links.Missing()) {
-    problems->Add(all, reason + " in this recording");
+    problems->Add(all, reason);
   }
   // What could not be used may be why.
   if (!links.Missing().empty())
     for (const auto& [kind, count] : links.warnings().counts())
       problems->Add(all, kind + ": " + std::to_string(count));
+  // How it may be mended, or what is likely to be missed.
+  survey.notes = links.Advice();
+  for (std::string& topic : UnreadMotion(bags.contents(), bags.topics()))
+    survey.notes.push_back(std::move(topic));
+  if (!links.Missing().empty())
+    for (const std::string& advice : survey.notes) problems->Add(all, advice);
   survey.edges = links.edges();
   survey.warnings = links.warnings().counts();
   survey.gaps = links.gap_count();
@@ -126,6 +154,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     return;
   }
   CheckFirstInstant(again, survey.first_step, *inputs, &survey, problems);
+  AddNotes(paths, options, *inputs, &survey);
   inputs->survey = std::move(survey);
 }
 
@@ -169,11 +198,14 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
     inputs.bodies = MakeBodies(inputs.vehicle, options.threads);
 
   Problems bag_problems;
-  inputs.bags = std::make_unique<BagReader>(paths.bags, &bag_problems);
+  inputs.bags = std::make_unique<BagReader>(paths.bags, &bag_problems, options.links.topics);
   const bool usable = bag_problems.empty() && !paths.bags.empty();
   if (usable && inputs.bags->count() == 0) {
-    bag_problems.Add(Join(paths.bags),
-                     "has neither /tf nor /joint_states: nothing moves the vehicle");
+    const MotionTopics& topics = options.links.topics;
+    bag_problems.Add(Join(paths.bags), "has neither " + topics.tf + " nor " + topics.joint_states +
+                                           ": nothing moves the vehicle");
+    for (const std::string& topic : UnreadMotion(inputs.bags->contents(), topics))
+      bag_problems.Add(Join(paths.bags), topic);
   } else if (usable && problems->empty() && cable_problems.empty() && vehicle_problems.empty()) {
     try {
       CheckRecording(paths, options, &inputs, &bag_problems);

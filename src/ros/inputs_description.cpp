@@ -1,12 +1,24 @@
 #include <cstdio>
 #include <sstream>
 
+#include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/inputs.h"
 #include "json.h"
 
 namespace cosserat_cable {
 
-std::string Describe(const Inputs& inputs) {
+std::string SharedOptionsText(const EngineOptions& options) {
+  const MotionTopics usual, &topics = options.links.topics;
+  std::string text = " --gravity " + GravityOption(options.gravity_W);
+  if (!options.links.world_frame.empty()) text += " --world-frame " + options.links.world_frame;
+  if (topics.joint_states != usual.joint_states) text += " --joint-states " + topics.joint_states;
+  if (topics.tf != usual.tf) text += " --tf " + topics.tf;
+  if (!options.links.tf_prefix.empty()) text += " --tf-prefix " + options.links.tf_prefix;
+  if (topics.use_record_times) text += " --use-record-times";
+  return text;
+}
+
+std::string Describe(const Inputs& inputs, const EngineOptions& options) {
   std::ostringstream text;
   char line[256];
   text << "vehicle '" << inputs.vehicle.name << "': " << inputs.vehicle.links.size() << " links, "
@@ -29,27 +41,32 @@ std::string Describe(const Inputs& inputs) {
   text << "inertial frame '" << survey.world << "'"
        << (survey.world_is_recorded ? "" : " (the URDF's root: no frame above it is recorded)")
        << "\n";
+  text << GravityText(options.gravity_W, survey.world) << "\n";
+  if (inputs.bags->topics().use_record_times)
+    text << "times are those of recording, not the messages' stamps\n";
   for (const auto& [topic, count] : inputs.bags->counts()) {
     text << topic << ": " << count << " messages\n";
   }
   for (const auto& [child, edge] : survey.edges) {
     if (edge.samples < 2) continue;
     const double seconds = static_cast<double>(edge.last - edge.first) * 1e-9;
-    std::snprintf(line, sizeof line,
-                  "%s -> %s by %s: %.1f Hz, longest interval %.1f ms, %llu gaps\n",
-                  edge.parent.c_str(), child.c_str(), ToString(edge.source),
-                  static_cast<double>(edge.samples - 1) / seconds,
-                  static_cast<double>(edge.longest_interval) * 1e-6,
-                  static_cast<unsigned long long>(edge.gaps));
+    std::snprintf(
+        line, sizeof line, "%s -> %s by %s: %.1f Hz, longest interval %.1f ms, %llu gaps\n",
+        edge.parent.c_str(), child.c_str(), ToString(edge.source, inputs.bags->topics()).c_str(),
+        static_cast<double>(edge.samples - 1) / seconds,
+        static_cast<double>(edge.longest_interval) * 1e-6,
+        static_cast<unsigned long long>(edge.gaps));
     text << line;
   }
   for (const auto& [kind, count] : survey.warnings) {
     text << "warning: " << kind << ": " << count << "\n";
   }
+  for (const std::string& note : survey.notes) text << "note: " << note << "\n";
   return text.str();
 }
 
-std::string DescribeJson(const Inputs& inputs, const Problems& problems) {
+std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
+                         const Problems& problems) {
   std::ostringstream json;
   json << "{\n  \"ok\": " << (problems.empty() ? "true" : "false") << ",\n  \"problems\": [";
   const char* separator = "";
@@ -68,6 +85,10 @@ std::string DescribeJson(const Inputs& inputs, const Problems& problems) {
   }
   json << "},\n  \"world_frame\": "
        << (inputs.survey ? JsonString(inputs.survey->world) : std::string("null"))
+       << ",\n  \"gravity\": " << JsonVector(options.gravity_W) << ",\n  \"notes\": "
+       << (inputs.survey ? JsonStrings(inputs.survey->notes) : std::string("[]"))
+       << ",\n  \"use_record_times\": "
+       << (options.links.topics.use_record_times ? "true" : "false")
        << ",\n  \"gaps\": " << (inputs.survey ? std::to_string(inputs.survey->gaps) : "null")
        << "\n}\n";
   return json.str();

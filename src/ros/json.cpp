@@ -35,4 +35,14 @@ std::string JsonString(const std::string& text) {
   return quoted + "\"";
 }
 
+std::string JsonStrings(const std::vector<std::string>& texts) {
+  std::string list = "[";
+  for (const std::string& text : texts) list += (list.size() > 1 ? ", " : "") + JsonString(text);
+  return list + "]";
+}
+
+std::string JsonVector(const Eigen::Vector3d& v) {
+  return "[" + JsonNumber(v.x()) + ", " + JsonNumber(v.y()) + ", " + JsonNumber(v.z()) + "]";
+}
+
 }  // namespace cosserat_cable

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "cosserat_cable/ros/conversions.h"
+#include "cosserat_cable/vehicle/joint_positions.h"
 
 namespace cosserat_cable {
 namespace {
@@ -18,23 +19,29 @@ constexpr std::size_t kMaxDepth = 1000;
 
 }  // namespace
 
-const char* ToString(LinkMotion::Source source) {
+std::string ToString(LinkMotion::Source source, const MotionTopics& topics) {
   switch (source) {
     case LinkMotion::Source::kUrdf:
       return "the URDF";
     case LinkMotion::Source::kTfStatic:
-      return "/tf_static";
+      return topics.tf_static();
     case LinkMotion::Source::kTf:
-      return "/tf";
+      return topics.tf;
     case LinkMotion::Source::kJointStates:
-      return "/joint_states";
+      return topics.joint_states;
   }
   return "";
+}
+
+std::string LinkMotion::ToString(Source source) const {
+  return cosserat_cable::ToString(source, options_.topics);
 }
 
 LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
                        LinkMotionOptions options)
     : vehicle_(vehicle), links_(links), options_(std::move(options)), tree_(options_.max_gap) {
+  options_.tf_prefix = WholePrefix(options_.tf_prefix);
+  options_.world_frame = Own(options_.world_frame);
   for (const JointModel& joint : vehicle_.joints) {
     joint_above_[joint.child] = &joint;
     joints_[joint.name] = &joint;
@@ -42,7 +49,8 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
     const bool held =
         std::count(options_.held_joints.begin(), options_.held_joints.end(), joint.name) > 0;
     if (joint.type == JointModel::Type::kFixed || held) {
-      AddFixed(joint.parent, joint.child, joint.Evaluate(0), Source::kUrdf);
+      AddFixed(joint.parent, joint.child, joint.Evaluate(RestPosition(vehicle_, joint)),
+               Source::kUrdf);
     }
   }
   UpdateTree();
@@ -131,6 +139,10 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
                            const Pose& X_PC, Source source) {
   if (stamp <= 0) {
     warnings_.Count(std::string("sample without a stamp by ") + ToString(source), child);
+    Unstamped& unstamped = unstamped_[child];
+    unstamped.parent = parent;
+    unstamped.source = source;
+    ++unstamped.samples;
     return;
   }
   Edge* edge = AcceptSource(parent, child, source);
@@ -171,8 +183,8 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
 void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
   const Source source = is_static ? Source::kTfStatic : Source::kTf;
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    const std::string parent = WithoutSlash(transform.header.frame_id);
-    const std::string child = WithoutSlash(transform.child_frame_id);
+    const std::string parent = Own(transform.header.frame_id);
+    const std::string child = Own(transform.child_frame_id);
     Pose X_PC;
     if (parent.empty() || child.empty() || parent == child) {
       warnings_.Count(std::string("transform without proper frame ids by ") + ToString(source),
@@ -204,7 +216,7 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message) {
     named_ = message.name;
     named_joints_.clear();
     for (const std::string& name : named_) {
-      const auto joint = joints_.find(name);
+      const auto joint = joints_.find(Own(name));
       named_joints_.push_back(joint == joints_.end() ? nullptr : joint->second);
     }
   }
@@ -213,12 +225,13 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message) {
     const double position = message.position[i];
     if (joint == nullptr) {
       warnings_.Count("joint not in the URDF", "'" + named_[i] + "'");
+      unknown_joints_.insert(named_[i]);
     } else if (!std::isfinite(position)) {
       warnings_.Count("joint position not finite", "'" + named_[i] + "'");
     } else if (joint->type != JointModel::Type::kFloating &&
                joint->type != JointModel::Type::kFixed && joint->mimic.empty()) {
       IngestJoint(*joint, position, stamp);
-      const auto followers = mimics_.equal_range(named_[i]);
+      const auto followers = mimics_.equal_range(joint->name);
       for (auto it = followers.first; it != followers.second; ++it) {
         const JointModel& follower = *it->second;
         IngestJoint(follower, follower.mimic_multiplier * position + follower.mimic_offset, stamp);
@@ -255,9 +268,25 @@ std::vector<std::string> LinkMotion::Missing() const {
     }
     for (const Step& step : way) {
       if (edges_.count(step.child) > 0) continue;
-      reasons.insert("joint '" + step.joint->name + "' moves link '" + step.child +
-                     "', but neither /tf nor /joint_states drives it");
+      const std::string joint =
+          "joint '" + step.joint->name + "' moves link '" + step.child + "', but ";
+      const auto unstamped = unstamped_.find(step.child);
+      if (unstamped == unstamped_.end()) {
+        reasons.insert(joint + "neither " + ToString(Source::kTf) + " nor " +
+                       ToString(Source::kJointStates) + " drives it");
+      } else {
+        reasons.insert(joint + UnstampedText(unstamped->second));
+      }
     }
+  }
+  // A vehicle whose own motion is without stamps would stand still otherwise.
+  for (const auto& [child, unstamped] : unstamped_) {
+    if (edges_.count(child) > 0 || relevant_.count(child) == 0 || JointAbove(child) != nullptr ||
+        child == options_.world_frame) {
+      continue;
+    }
+    reasons.insert("frame '" + child + "' is moved in '" + unstamped.parent + "', but " +
+                   UnstampedText(unstamped));
   }
   return {reasons.begin(), reasons.end()};
 }

@@ -4,8 +4,10 @@
 #include <cstdio>
 #include <sstream>
 
+#include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/ros/summary.h"
+#include "diagnostics.h"
 #include "json.h"
 
 namespace cosserat_cable {
@@ -49,6 +51,36 @@ void WriteMode(const rod::Mode& mode, std::ostream* json) {
 
 }  // namespace
 
+std::string SettingText(const ModesSetting& setting) {
+  // So many fit on a screen; --json has all.
+  constexpr std::size_t kMostJoints = 8;
+  // Rounding of poses is no position.
+  constexpr double kZero = 1e-9;
+  std::string text = GravityText(setting.gravity, setting.frame) + "\n";
+  if (setting.time) {
+    text += "the vehicle is where it was " + FormatRounded(*setting.time, 6) +
+            " s after the recording's first sample, at " + StampText(setting.stamp) + "\n";
+  }
+  std::size_t shown = 0;
+  for (const auto& [joint, position] : setting.joints) {
+    if (std::abs(position) < kZero) continue;
+    if (shown < kMostJoints)
+      text += (shown == 0 ? "joints: " : ", ") + joint + " " + FormatRounded(position, 4);
+    ++shown;
+  }
+  if (shown > kMostJoints) text += " and " + std::to_string(shown - kMostJoints) + " more";
+  if (shown > 0) text += setting.time ? "\n" : "; all others at zero\n";
+  for (const std::string& note : setting.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+std::string SettingComment(const ModesSetting& setting) {
+  std::istringstream lines(SettingText(setting));
+  std::string comment;
+  for (std::string line; std::getline(lines, line);) comment += "# " + line + "\n";
+  return comment;
+}
+
 std::string ModesText(const CableModes& cable) {
   std::ostringstream text;
   char line[200];
@@ -81,11 +113,23 @@ std::string ModesText(const CableModes& cable) {
   return text.str();
 }
 
-std::string ModesJson(const std::vector<CableModes>& cables, double wall_time) {
+std::string ModesJson(const std::vector<CableModes>& cables, const ModesSetting& setting,
+                      double wall_time) {
   std::ostringstream json;
   json << "{\n  \"wall_time\": " << JsonNumber(wall_time)
-       << ",\n  \"peak_memory\": " << JsonNumber(PeakMemory()) << ",\n  \"cables\": {";
+       << ",\n  \"peak_memory\": " << JsonNumber(PeakMemory())
+       << ",\n  \"frame\": " << JsonString(setting.frame)
+       << ",\n  \"gravity\": " << JsonVector(setting.gravity)
+       << ",\n  \"time\": " << (setting.time ? JsonNumber(*setting.time) : std::string("null"))
+       << ",\n  \"stamp_ns\": " << (setting.time ? std::to_string(setting.stamp) : "null")
+       << ",\n  \"notes\": " << JsonStrings(setting.notes) << ",\n  \"joints\": {";
   const char* separator = "";
+  for (const auto& [joint, position] : setting.joints) {
+    json << separator << JsonString(joint) << ": " << JsonNumber(position);
+    separator = ", ";
+  }
+  json << "},\n  \"cables\": {";
+  separator = "";
   for (const CableModes& cable : cables) {
     json << separator << "\n    " << JsonString(cable.model.name)
          << ": {\"elements\": " << cable.model.elements

@@ -1,6 +1,9 @@
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/cable_node.h"
 
 namespace cosserat_cable {
@@ -23,6 +26,28 @@ class ParameterReader {
   Problems* problems_;
 };
 
+// "X,Y,Z", or a list of three numbers.
+void ReadGravityParameter(const ros::NodeHandle& node, Problems* problems,
+                          Eigen::Vector3d* gravity) {
+  std::string text;
+  std::vector<double> numbers;
+  std::optional<Eigen::Vector3d> read;
+  Problems found;
+  if (!node.hasParam("gravity")) return;
+  if (node.getParam("gravity", text)) {
+    // A launch file's argument that nobody gave.
+    if (text.empty()) return;
+    read = ReadGravity(text, &found);
+  } else if (node.getParam("gravity", numbers)) {
+    read = ReadGravity(numbers, &found);
+  } else {
+    found.Add("", 0, "gravity", "expected \"X,Y,Z\" or a list of three numbers [m/s^2]");
+  }
+  for (const Problem& problem : found.all())
+    problems->Add("", 0, node.resolveName("gravity"), problem.message);
+  if (read) *gravity = *read;
+}
+
 }  // namespace
 
 NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problems) {
@@ -44,6 +69,11 @@ NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problem
   reader.Read("curvature_scale", "a number [1/m]", &engine.markers.curvature_scale);
   reader.Read("threads", "a whole number (0: one per core)", &engine.threads);
   reader.Read("dump_directory", "a folder", &engine.dump_directory);
+  ReadGravityParameter(parameters, problems, &engine.gravity_W);
+  reader.Read("joint_states", "a topic", &engine.links.topics.joint_states);
+  reader.Read("tf", "a topic", &engine.links.topics.tf);
+  reader.Read("tf_prefix", "a prefix of recorded frames", &engine.links.tf_prefix);
+  reader.Read("use_record_times", "true or false", &engine.links.topics.use_record_times);
   std::string frame = "reference";
   reader.Read("amplitude_frame", "'reference' or 'world'", &frame);
   const std::map<std::string, AmplitudeFrame> frames = {{"reference", AmplitudeFrame::kReference},

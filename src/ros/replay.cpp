@@ -12,6 +12,7 @@
 #include "bag_file.h"
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/progress.h"
+#include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/bag_sink.h"
 #include "cosserat_cable/ros/conversions.h"
 
@@ -57,6 +58,12 @@ void Say(CableEngine* engine) {
   for (const std::string& news : engine->TakeNews()) {
     std::cerr << (isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "") << news << "\n";
   }
+}
+
+// What the cable file has no keys for, as comments.
+std::string ConfigurationHead(const ReplayOptions& options, const BagSurvey& survey) {
+  return "# " + GravityText(options.engine.gravity_W, survey.world) + "\n# cable_replay" +
+         SharedOptionsText(options.engine) + "\n";
 }
 
 // So much of the recording is read before the cables follow: their threads then have enough to do
@@ -108,6 +115,7 @@ ExitCode RunReplay(ReplayOptions options) {
   const auto start = std::chrono::steady_clock::now();
   Problems problems;
   CheckOutputs(options, &problems);
+  options.engine.ApplyGravity(&problems);
   Inputs inputs = LoadInputs(options.inputs, options.engine, &problems);
   if (!problems.empty()) {
     std::cerr << problems.ToString();
@@ -140,7 +148,8 @@ ExitCode RunReplay(ReplayOptions options) {
     }
     writer.Close();
     const std::string configuration = WithoutExtension(options.output) + ".cables.yaml";
-    if (!WriteTextFile(configuration, WriteCableFile(inputs.cables))) {
+    if (!WriteTextFile(configuration, ConfigurationHead(options, *inputs.survey) +
+                                          WriteCableFile(inputs.cables))) {
       std::cerr << configuration << ": could not be written\n";
       code = kExitFileTrouble;
     }
@@ -150,6 +159,7 @@ ExitCode RunReplay(ReplayOptions options) {
   }
 
   Summary summary = engine.MakeSummary();
+  summary.notes = inputs.survey->notes;
   summary.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.peak_memory = PeakMemory();

@@ -31,7 +31,8 @@ void Emit(const char* key, const Motion& motion, YAML::Emitter* out) {
 }  // namespace
 
 bool DumpState(const std::string& path, const CableSimulation& cable, const Surroundings& then,
-               std::int64_t time, const std::string& world_frame, const std::string& message) {
+               std::int64_t time, const std::string& world_frame, const Eigen::Vector3d& gravity_W,
+               const std::string& message) {
   YAML::Emitter out;
   out.SetDoublePrecision(kRoundTripDigits);
   out << YAML::BeginMap;
@@ -39,6 +40,9 @@ bool DumpState(const std::string& path, const CableSimulation& cable, const Surr
   out << YAML::Key << "stamp_ns" << YAML::Value << time;
   out << YAML::Key << "message" << YAML::Value << message;
   out << YAML::Key << "world_frame" << YAML::Value << world_frame;
+  out << YAML::Key << "gravity" << YAML::Value << YAML::Flow << YAML::BeginSeq << gravity_W.x()
+      << gravity_W.y() << gravity_W.z() << YAML::EndSeq;
+  out << YAML::Comment("m/s^2, in the world frame");
   out << YAML::Comment("poses: x y z qx qy qz qw in the world frame");
   Emit("clamp_a", then.a, &out);
   Emit("clamp_b", then.b, &out);

@@ -11,6 +11,7 @@ namespace cosserat_cable {
 /// Writes YAML: what happened, the clamps' poses that could not be followed, and all nodes. False
 /// where the file could not be written.
 bool DumpState(const std::string& path, const CableSimulation& cable, const Surroundings& then,
-               std::int64_t time, const std::string& world_frame, const std::string& message);
+               std::int64_t time, const std::string& world_frame, const Eigen::Vector3d& gravity_W,
+               const std::string& message);
 
 }  // namespace cosserat_cable

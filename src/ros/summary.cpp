@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cosserat_cable/input/gravity.h"
 #include "json.h"
 
 namespace cosserat_cable {
@@ -38,6 +39,8 @@ std::string Summary::ToText() const {
   text << "simulated " << Format("%.3f", simulated_time) << " s in " << Format("%.2f", wall_time)
        << " s: real-time factor " << Format("%.2f", real_time_factor()) << ", peak memory "
        << Format("%.0f", peak_memory / 1e6) << " MB\n";
+  text << "inertial frame '" << world_frame << "', " << GravityText(gravity_W, world_frame) << "\n";
+  if (use_record_times) text << "times are those of recording, not the messages' stamps\n";
   char line[200];
   std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8s\n", "cable", "amplitude",
                 "curvature", "clearance", "contact", "energy", "retries");
@@ -57,6 +60,7 @@ std::string Summary::ToText() const {
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
   for (const auto& [kind, count] : warnings) text << "warning: " << kind << ": " << count << "\n";
+  for (const std::string& note : notes) text << "note: " << note << "\n";
   return text.str();
 }
 
@@ -66,6 +70,9 @@ std::string Summary::ToJson() const {
        << ",\n  \"wall_time\": " << JsonNumber(wall_time)
        << ",\n  \"real_time_factor\": " << JsonNumber(real_time_factor())
        << ",\n  \"peak_memory\": " << JsonNumber(peak_memory)
+       << ",\n  \"gravity\": " << JsonVector(gravity_W)
+       << ",\n  \"use_record_times\": " << (use_record_times ? "true" : "false")
+       << ",\n  \"notes\": " << JsonStrings(notes)
        << ",\n  \"world_frame\": " << JsonString(world_frame) << ",\n  \"resets\": " << resets
        << ",\n  \"gaps\": " << gaps << ",\n  \"warnings\": {";
   const char* separator = "";

@@ -72,7 +72,8 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
   message_ = message;
   const std::string path =
       options_.dump_directory + "/" + model().name + "_" + std::to_string(time) + ".failed.yaml";
-  const bool dumped = DumpState(path, simulation_, surroundings_, time, world, message);
+  const bool dumped =
+      DumpState(path, simulation_, surroundings_, time, world, options_.gravity_W, message);
   summary_.failure =
       message + (dumped ? "; state in " + path : "; its state could not be written to " + path);
   news_.push_back("cable '" + model().name + "' stopped at " + StampText(time) + ": " +
@@ -91,20 +92,28 @@ void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& worl
     Fail("its state is not finite", now.time, world);
   if (!now.markers) return;
   if (!failed_) {
-    told_.push_back(
-        {now.time, index_,
-         MakeMarkers(simulation_, now.frames[frames_.reference].X, now.time, options_.markers)});
+    told_.push_back({now.time, index_,
+                     InRecordedFrame(MakeMarkers(simulation_, now.frames[frames_.reference].X,
+                                                 now.time, options_.markers))});
   } else if (shown_) {
-    told_.push_back({now.time, index_, DeleteMarkers(model(), now.time)});
+    told_.push_back({now.time, index_, InRecordedFrame(DeleteMarkers(model(), now.time))});
   }
   shown_ = !failed_;
+}
+
+// Viewers know the frames by the names under which they were recorded.
+visualization_msgs::MarkerArray CableEngine::SwayingCable::InRecordedFrame(
+    visualization_msgs::MarkerArray markers) const {
+  for (auto& marker : markers.markers)
+    marker.header.frame_id = WholePrefix(options_.links.tf_prefix) + marker.header.frame_id;
+  return markers;
 }
 
 // False where something is not finite: nothing is told then.
 bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
   ApexTelemetry message =
       MakeTelemetry(simulation_.ReportForces(), now.frames[frames_.reference], rest_, now.time);
-  message.header.frame_id = model().reference;
+  message.header.frame_id = WholePrefix(options_.links.tf_prefix) + model().reference;
   message.amplitude = history_.PeakToPeak();
   message.held = now.in_gap[frames_.a] || now.in_gap[frames_.b];
   CablePosture posture = simulation_.posture();

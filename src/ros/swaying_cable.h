@@ -71,6 +71,7 @@ class CableEngine::SwayingCable {
   void Record(const Instant& now);
   void Fail(const std::string& message, std::int64_t time, const std::string& world);
   bool TellTelemetry(const Instant& now);
+  visualization_msgs::MarkerArray InRecordedFrame(visualization_msgs::MarkerArray markers) const;
 
   const EngineOptions& options_;
   CableSimulation simulation_;

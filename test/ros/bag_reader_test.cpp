@@ -90,5 +90,79 @@ TEST(BagReaderTest, SaysWhatIsNoBag) {
   EXPECT_NE(problems.ToString().find("no bag"), std::string::npos);
 }
 
+TEST(BagReader, ReadsTopicsOfOtherNames) {
+  const std::string path = TemporaryPath("bag_reader_topics_test.bag");
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    for (int i = 0; i < 5; ++i) {
+      bag.write("/rover1/joint_states", ros::Time(100 + i), Joints(i));
+      bag.write("/rover1/tf", ros::Time(100 + i), Transform(i));
+      bag.write("/rover2/joint_states", ros::Time(100 + i), Joints(-i));
+    }
+    bag.write("/rover1/tf_static", ros::Time(100), Transform(7));
+  }
+  Problems problems;
+  const BagReader plain({path}, &problems);
+  EXPECT_EQ(plain.count(), 0u);
+  const std::vector<std::string> unread = UnreadMotion(plain.contents(), plain.topics());
+  ASSERT_EQ(unread.size(), 3u);
+  EXPECT_EQ(unread[0],
+            "there is /rover1/joint_states (sensor_msgs/JointState, 5 messages): --joint-states "
+            "/rover1/joint_states reads it");
+  EXPECT_NE(unread[1].find("--tf /rover1/tf reads it, and /rover1/tf_static"), std::string::npos);
+
+  MotionTopics topics;
+  topics.joint_states = "/rover1/joint_states";
+  topics.tf = "/rover1/tf";
+  const BagReader reader({path}, &problems, topics);
+  EXPECT_EQ(reader.count(), 11u);
+  int statics = 0;
+  reader.ForEach(reader.begin_time(), reader.end_time(), [&](const BagMessage& message) {
+    if (message.joints) EXPECT_GE(message.joints->position[0], 0);
+    statics += message.is_static ? 1 : 0;
+    return true;
+  });
+  EXPECT_EQ(statics, 1);
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+
+  topics.joint_states = "/rover1/joint_state";
+  const BagReader misspelt({path}, &problems, topics);
+  EXPECT_NE(problems.ToString().find("did you mean '/rover1/joint_states'?"), std::string::npos)
+      << problems.ToString();
+}
+
+TEST(BagReader, StampsWithRecordTimesOnRequest) {
+  const std::string path = TemporaryPath("bag_reader_times_test.bag");
+  {
+    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    sensor_msgs::JointState stamped = Joints(1);
+    stamped.header.stamp = ros::Time(5);
+    bag.write("/joint_states", ros::Time(100), Joints(0));  // no stamp
+    bag.write("/joint_states", ros::Time(101), stamped);    // of another clock
+    bag.write("/tf", ros::Time(102), Transform(2));
+  }
+  MotionTopics topics;
+  topics.use_record_times = true;
+  Problems problems;
+  const BagReader reader({path}, &problems, topics);
+  std::vector<std::uint32_t> stamps;
+  reader.ForEach(reader.begin_time(), reader.end_time(), [&](BagMessage message) {
+    if (message.tf) {
+      stamps.push_back(message.tf->transforms[0].header.stamp.sec);
+      return true;
+    }
+    stamps.push_back(message.joints->header.stamp.sec);
+    // The copy says the same.
+    sensor_msgs::JointState copy;
+    ros::serialization::IStream stream(message.bytes.data(),
+                                       static_cast<std::uint32_t>(message.bytes.size()));
+    ros::serialization::deserialize(stream, copy);
+    EXPECT_EQ(copy.header.stamp, message.joints->header.stamp);
+    EXPECT_EQ(copy.position, message.joints->position);
+    return true;
+  });
+  EXPECT_EQ(stamps, (std::vector<std::uint32_t>{100, 101, 102}));
+}
+
 }  // namespace
 }  // namespace cosserat_cable

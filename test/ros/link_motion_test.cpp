@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <tf2/buffer_core.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cosserat_cable/ros/conversions.h"
@@ -216,6 +217,110 @@ TEST_F(LinkMotionTest, LeadingSlashesOfOldRecordingsAreDropped) {
   LinkMotion links(vehicle_, needed_, options_);
   links.Ingest(Transform("/odom", "/base", kStart, Pose()), false);
   EXPECT_EQ(links.edges().at("base").parent, "odom");
+}
+
+bool Says(const std::vector<std::string>& sentences, const std::string& words) {
+  return std::any_of(sentences.begin(), sentences.end(), [&](const std::string& sentence) {
+    return sentence.find(words) != std::string::npos;
+  });
+}
+
+// A sample that is there without a stamp is not one that is missing.
+TEST(LinkMotion, SamplesWithoutStampsAreNamedAsSuch) {
+  const VehicleModel vehicle = MakeVehicle();
+  LinkMotion links(vehicle, {"base", "strut"}, {});
+  for (int i = 0; i < 7; ++i) links.Ingest(Joints(0, 0.01 * i));
+  EXPECT_TRUE(Says(links.Missing(), "all 7 samples of it by /joint_states have no stamp"));
+  EXPECT_TRUE(Says(links.Missing(), "--use-record-times"));
+  EXPECT_FALSE(Says(links.Missing(), "neither"));
+}
+
+// The body would stand still, and nobody would be told.
+TEST(LinkMotion, ABodyMovedWithoutStampsIsMissing) {
+  const VehicleModel vehicle = MakeVehicle();
+  LinkMotion links(vehicle, {"base", "strut"}, {});
+  for (int i = 0; i < 7; ++i) {
+    links.Ingest(Joints(kStart + i * kPeriod, 0.01 * i));
+    links.Ingest(Transform("odom", "base", 0, BodyPose(0.01 * i)), false);
+  }
+  EXPECT_TRUE(Says(links.Missing(), "frame 'base' is moved in 'odom'"));
+  LinkMotionOptions options;
+  options.world_frame = "base";
+  LinkMotion fixed(vehicle, {"base", "strut"}, options);
+  for (int i = 0; i < 7; ++i) {
+    fixed.Ingest(Joints(kStart + i * kPeriod, 0.01 * i));
+    fixed.Ingest(Transform("odom", "base", 0, BodyPose(0.01 * i)), false);
+  }
+  EXPECT_TRUE(fixed.Missing().empty());
+}
+
+TEST(LinkMotion, StampsThatArePartlyZeroAreAdvisedOn) {
+  const VehicleModel vehicle = MakeVehicle();
+  LinkMotion links(vehicle, {"strut"}, {});
+  for (int i = 0; i < 10; ++i) links.Ingest(Joints(i % 2 == 0 ? kStart + i * kPeriod : 0, 0.0));
+  EXPECT_TRUE(links.Missing().empty());
+  // Of the strut, and of the arm that follows it.
+  EXPECT_TRUE(Says(links.Advice(), "10 samples by /joint_states have no stamp"));
+  LinkMotion frozen(vehicle, {"strut"}, {});
+  for (int i = 0; i < 10; ++i) frozen.Ingest(Joints(kStart, 0.01 * i));
+  EXPECT_TRUE(Says(frozen.Advice(), "have one and the same stamp"));
+}
+
+TEST(LinkMotion, PrefixesAreAdvisedOnAndTakenOff) {
+  const VehicleModel vehicle = MakeVehicle();
+  sensor_msgs::JointState joints = Joints(kStart, 0.02);
+  joints.name = {"rover1/travel"};
+  const auto drive = [&](LinkMotion* links) {
+    for (int i = 0; i < 20; ++i) {
+      joints.header.stamp = ToRosTime(kStart + i * kPeriod);
+      links->Ingest(joints);
+      links->Ingest(
+          Transform("rover1/odom", "rover1/base", kStart + i * kPeriod, BodyPose(0.01 * i)), false);
+    }
+    links->Finish();
+  };
+  LinkMotion plain(vehicle, {"base", "strut"}, {});
+  drive(&plain);
+  EXPECT_TRUE(Says(plain.Missing(), "neither /tf nor /joint_states drives it"));
+  EXPECT_TRUE(Says(plain.Advice(), "'rover1/base'"));
+  EXPECT_TRUE(Says(plain.Advice(), "'rover1/travel'"));
+  EXPECT_TRUE(Says(plain.Advice(), "--tf-prefix rover1 takes it off"));
+
+  for (const char* prefix : {"rover1", "rover1/", "/rover1"}) {
+    LinkMotionOptions options;
+    options.tf_prefix = prefix;
+    LinkMotion links(vehicle, {"base", "strut"}, options);
+    drive(&links);
+    EXPECT_TRUE(links.Missing().empty());
+    EXPECT_EQ(links.world(), "odom");
+    constexpr double kRounding = 1e-9;  // [m] of a position near zero
+    const Pose X_BS =
+        links.Evaluate("base", kStart).X.Inverse() * links.Evaluate("strut", kStart).X;
+    EXPECT_NEAR(X_BS.p.z(), 0.02, kRounding);
+    EXPECT_TRUE(links.Advice().empty());
+  }
+}
+
+TEST(LinkMotion, TopicsAreCalledByTheirNames) {
+  LinkMotionOptions options;
+  options.topics.joint_states = "/rover1/joint_states";
+  options.topics.tf = "/rover1/tf";
+  const VehicleModel vehicle = MakeVehicle();
+  const LinkMotion links(vehicle, {"strut"}, options);
+  EXPECT_TRUE(Says(links.Missing(), "neither /rover1/tf nor /rover1/joint_states drives it"));
+}
+
+// A joint whose limits exclude zero is not held outside of them.
+TEST(LinkMotion, HeldJointsStayInsideTheirLimits) {
+  VehicleModel vehicle = MakeVehicle();
+  vehicle.joints[0].lower = 0.1;
+  vehicle.joints[0].upper = 0.4;
+  LinkMotionOptions options;
+  options.held_joints = {"travel"};
+  LinkMotion links(vehicle, {"strut"}, options);
+  links.Ingest(Transform("odom", "base", kStart, Pose()), false);
+  links.Finish();
+  EXPECT_EQ(links.Evaluate("strut", kStart).X.p, Eigen::Vector3d(0, 0, 0.1));
 }
 
 }  // namespace

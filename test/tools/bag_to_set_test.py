@@ -70,6 +70,9 @@ def write_bag(path):
             pose.pose.position.x, pose.pose.position.z = 1000 * tip(t), 250
             pose.pose.orientation.w = 1
             bag.write('/tip/pose', pose, stamp(t + 0.003))
+            half = PointStamped()
+            half.header.stamp = stamp(t) if i % 2 else genpy.Time()
+            bag.write('/half_stamped', half, stamp(t + 0.003))
             if i % 2:
                 continue
             bag.write('/phi', Float64(turn(t)), stamp(t))
@@ -253,6 +256,24 @@ class BagToSet(unittest.TestCase):
         with open(self.cable, 'a', encoding='utf-8') as out:
             out.write('  EA: 3000.0\n')
         self.assertRegex(self.refused(*self.TIP, name='three'), 'differs from the cable of')
+
+    def test_record_times_instead_of_stamps(self):
+        _, out = self.converted(*self.TIP)
+        self.assertIn('t = 0 at 1000.000000 s', out)
+        _, out = self.converted(*self.TIP, '--use-record-times', name='two', cable=False)
+        self.assertIn('t = 0 at 1000.003000 s', out)
+        self.assertIn('/tip/pose: messages have the time at which they were recorded', out)
+
+    def test_stamps_and_record_times_do_not_mix(self):
+        half = ('--channel', 'x=/half_stamped,quantity=position,axis=x,s=0.25')
+        self.assertIn('/half_stamped: 101 of 201 messages have no stamp: --use-record-times',
+                      self.refused(*half))
+        self.converted(*half, '--use-record-times')
+        record = read_csv(self.path('set', 'one.csv'))
+        np.testing.assert_allclose(record['t'], 0.01 * np.arange(201), atol=STAMP)
+
+    def test_gravity_of_another_unit(self):
+        self.assertIn('--gravity: got 981 m/s^2', self.refused(*self.TIP, '--gravity', '0,0,-981'))
 
     def test_mistakes(self):
         # What the options alone show, then what the bag shows: each is told in one run.

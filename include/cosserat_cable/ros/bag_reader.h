@@ -1,4 +1,5 @@
-// The motion in one or more bags: /tf, /tf_static and /joint_states in the order of time.
+// The motion in one or more bags, in the order of time: /tf, /tf_static and /joint_states, or
+// topics of other names.
 #pragma once
 
 #include <sensor_msgs/JointState.h>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "cosserat_cable/input/problems.h"
+#include "cosserat_cable/ros/motion_topics.h"
 
 namespace cosserat_cable {
 
@@ -31,24 +33,31 @@ class BagFile;
 
 class BagReader {
  public:
-  /// Opens the bags. Each that is missing, unindexed, truncated, or no bag, is a problem.
-  BagReader(const std::vector<std::string>& paths, Problems* problems);
+  /// Opens the bags. Each that is missing, unindexed, truncated, or no bag, is a problem; so are a
+  /// topic of another type, and one of `topics` that is in none of them.
+  BagReader(const std::vector<std::string>& paths, Problems* problems, MotionTopics topics = {});
   ~BagReader();
 
   /// Of the motion's messages over all bags [ns]; both 0 where there are none.
   std::int64_t begin_time() const { return begin_; }
   std::int64_t end_time() const { return end_; }
+  /// Of all topics of the bags.
+  const TopicContents& contents() const { return contents_; }
+  const MotionTopics& topics() const { return topics_; }
   /// Motion messages by topic.
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
   std::uint64_t count() const;
 
   /// Calls `visit` with each message recorded from `from` to `to` [ns]; earlier messages of
-  /// /tf_static come first. Stops where it returns false. Throws BagFormatError, a
+  /// /tf_static come first. With use_record_times the messages are stamped with them, and so are
+  /// their bytes. Stops where it returns false. Throws BagFormatError, a
   /// std::runtime_error, where a bag turns out to be damaged.
   void ForEach(std::int64_t from, std::int64_t to,
                const std::function<bool(BagMessage)>& visit) const;
 
  private:
+  MotionTopics topics_;
+  TopicContents contents_;
   std::vector<std::unique_ptr<BagFile>> bags_;
   std::map<std::string, std::uint64_t> counts_;
   std::int64_t begin_ = 0, end_ = 0;

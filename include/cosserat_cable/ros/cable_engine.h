@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cosserat_cable/cable/cable_fleet.h"
 #include "cosserat_cable/cable/cable_simulation.h"
+#include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/link_motion.h"
 #include "cosserat_cable/ros/markers.h"
 #include "cosserat_cable/ros/output_sink.h"
@@ -27,13 +29,16 @@ struct EngineOptions {
   double diagnostics_rate = 1;    ///< [Hz]
   double amplitude_window = 0.5;  ///< [s]
   AmplitudeFrame amplitude_frame = AmplitudeFrame::kReference;
-  Eigen::Vector3d gravity_W{0, 0, -9.81};  ///< [m/s^2]
-  double clearance_reach = 0.05;           ///< bodies farther away count as none [m]
+  std::optional<std::string> gravity;        ///< as a user wrote it, "X,Y,Z"; see ApplyGravity
+  Eigen::Vector3d gravity_W = kGravityDown;  ///< [m/s^2]
+  double clearance_reach = 0.05;             ///< bodies farther away count as none [m]
   MarkerStyle markers;
   std::string dump_directory = ".";  ///< where a failed cable's state is written
   int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
 
+  /// Takes `gravity` over into gravity_W; what is wrong with it is a problem.
+  void ApplyGravity(Problems* problems);
   /// What is wrong with the numbers, one sentence each.
   std::vector<std::string> Check() const;
 };

@@ -29,8 +29,9 @@ struct BagSurvey {
   std::map<std::string, LinkMotion::Edge> edges;
   std::map<std::string, std::uint64_t> warnings;
   std::uint64_t gaps = 0;
-  std::int64_t first_step = 0;  ///< when all links are known [ns]
-  std::vector<double> chords;   ///< between each cable's clamps at that time [m]
+  std::int64_t first_step = 0;     ///< when all links are known [ns]
+  std::vector<double> chords;      ///< between each cable's clamps at that time [m]
+  std::vector<std::string> notes;  ///< what the user may want to set otherwise
 };
 
 struct Inputs {
@@ -42,11 +43,15 @@ struct Inputs {
   int triangles = 0;                ///< of all collision meshes that cables avoid
 };
 
+/// The options that name topics, frames or gravity, as they were given: " --gravity 0,0,9.81".
+std::string SharedOptionsText(const EngineOptions& options);
+
 /// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems);
 
 /// For `cable_check`: cables, bags, and which frame is driven by what.
-std::string Describe(const Inputs& inputs);
-std::string DescribeJson(const Inputs& inputs, const Problems& problems);
+std::string Describe(const Inputs& inputs, const EngineOptions& options);
+std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
+                         const Problems& problems);
 
 }  // namespace cosserat_cable

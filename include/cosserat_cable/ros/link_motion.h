@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/ros/motion_topics.h"
 #include "cosserat_cable/ros/warnings.h"
 #include "cosserat_cable/vehicle/motion_tree.h"
 #include "cosserat_cable/vehicle/vehicle_model.h"
@@ -23,8 +24,12 @@ namespace cosserat_cable {
 
 struct LinkMotionOptions {
   std::string world_frame;               ///< inertial; empty: the root of the tree above the links
-  std::vector<std::string> held_joints;  ///< stay at position zero: nothing drives them
-  double max_gap = 0.25;                 ///< [s], see PoseCurve
+  std::vector<std::string> held_joints;  ///< stay at rest, see RestPosition: nothing drives them
+  MotionTopics topics;
+  /// What stands before the URDF's names in recorded frames and joints: "rover1" is taken for
+  /// "rover1/", "rover1_" as it is. Empty: nothing.
+  std::string tf_prefix;
+  double max_gap = 0.25;  ///< [s], see PoseCurve
 };
 
 class LinkMotion {
@@ -60,6 +65,8 @@ class LinkMotion {
   /// The inertial frame: the option, or the common root of all links so far. Empty where they have
   /// none in common.
   const std::string& world() const { return world_; }
+  /// What to do about names and stamps that do not fit, one sentence each.
+  std::vector<std::string> Advice() const;
   /// Why links cannot be followed from world() yet, one sentence each. Empty: all edges are driven.
   std::vector<std::string> Missing() const;
 
@@ -90,6 +97,17 @@ class LinkMotion {
     const JointModel* joint;  // null where the recording alone knows this edge
   };
 
+  struct Unstamped {
+    std::string parent;
+    Source source = Source::kTf;
+    std::uint64_t samples = 0;
+  };
+
+  /// A source's name as the user knows it.
+  std::string ToString(Source source) const;
+  std::string UnstampedText(const Unstamped& unstamped) const;
+  /// A recorded name as the URDF has it.
+  std::string Own(const std::string& name) const;
   void AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                 Source source);
   void AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
@@ -112,6 +130,9 @@ class LinkMotion {
   std::vector<std::string> named_;                        // in the last joint state
   std::vector<const JointModel*> named_joints_;           // of these names; null: not in the URDF
 
+  std::map<std::string, Unstamped> unstamped_;  // by child
+  std::set<std::string> unknown_joints_;
+
   MotionTree tree_;
   std::vector<MotionTree::Link> followed_;  // links_ as seen from world_, once asked for
   std::map<std::string, Edge> edges_;
@@ -125,6 +146,9 @@ class LinkMotion {
 };
 
 /// "/tf", "/joint_states", ...
-const char* ToString(LinkMotion::Source source);
+std::string ToString(LinkMotion::Source source, const MotionTopics& topics = {});
+
+/// With its separator: "rover1/" for "rover1", "/rover1" and "rover1/".
+std::string WholePrefix(const std::string& tf_prefix);
 
 }  // namespace cosserat_cable

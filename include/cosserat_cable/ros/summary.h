@@ -1,6 +1,7 @@
 // What a run came to: printed at its end by every tool, and written by --json.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -26,11 +27,14 @@ struct CableSummary {
 
 struct Summary {
   std::string world_frame;
-  double simulated_time = 0;  ///< [s]
-  double wall_time = 0;       ///< [s]
-  double peak_memory = 0;     ///< resident [bytes]
-  std::uint64_t resets = 0;   ///< time ran backwards
-  std::uint64_t gaps = 0;     ///< of the input
+  Eigen::Vector3d gravity_W = Eigen::Vector3d::Zero();  ///< [m/s^2]
+  bool use_record_times = false;                        ///< instead of the messages' stamps
+  std::vector<std::string> notes;                       ///< on the input
+  double simulated_time = 0;                            ///< [s]
+  double wall_time = 0;                                 ///< [s]
+  double peak_memory = 0;                               ///< resident [bytes]
+  std::uint64_t resets = 0;                             ///< time ran backwards
+  std::uint64_t gaps = 0;                               ///< of the input
   std::map<std::string, std::uint64_t> warnings;
   std::vector<CableSummary> cables;
 
