@@ -109,8 +109,8 @@ class Evaluation {
     if (e < w_.layout.padding)
       for (T& x : on_next_.v) x = w_.exists * x;
     if (!with_tangent) return;
-    out->tangent = w_.taut ? EvaluateTangent(Converted<F>(state), ModuliOf(law))
-                           : EvaluateTangent(Converted<F>(state), moduli_);
+    if (w_.taut) moduli_ = ModuliOf(law);
+    out->tangent = EvaluateTangent(Converted<F>(state), moduli_);
     if constexpr (kJointed) TurnBack(Converted<F>(w_.joints[e]), &out->tangent);
   }
   void LastNode(Evaluated<F>* out) {
@@ -138,7 +138,7 @@ class Evaluation {
   const StepChain<T>& w_;
   const ScaledLaw<T> law_;
   const T velocity_by_increment_;
-  const TangentLaw<F> moduli_;
+  TangentLaw<F> moduli_;  // of the element at hand; of all where none is taut
   T largest_ = 0.0;
   Vec6<T> on_next_;  // what the last element exerts on its second node
 };

@@ -22,6 +22,11 @@ constexpr double kTension = 80, kStretch = 5e-3;
 /// What ten elements are held to, and 160.
 constexpr double kFew = 1e-2, kMany = 1e-3;
 
+/// A row's name: which rod, of how many elements.
+std::string Named(const std::string& rod, double stiffness, int elements) {
+  return rod + " = " + Shown(stiffness) + ", N = " + std::to_string(elements) + ": ";
+}
+
 double Allowed(int elements) { return elements < 160 ? kFew : kMany; }
 
 /// Along x, stretched by `stretch` to `tension`; EI by T L^2.
@@ -79,7 +84,7 @@ TEST(PublishedTension, ATautWireHasItsTensionSagAndPitch) {
       const RodModel model = TautModel(kTension, kStretch, stiffness, elements);
       const double EI = model.section.C_M.x() * (1 + kStretch);
       const Rod rod = Stretched(model, kStretch);
-      const std::string name = "taut wire, EI/(T L^2) = " + Shown(stiffness) + ": ";
+      const std::string name = Named("taut wire, EI/(T L^2)", stiffness, elements);
       const double within = Allowed(elements);
       const double tension = std::abs(rod.reaction_b().force.x());
       Validate({"Tension", name + "T [N]", "EA x stretch", kTension, tension, within * kTension,
@@ -108,7 +113,8 @@ TEST(PublishedTension, ClampsThatPointAsideHoldALayerOfBending) {
       const double k = std::sqrt(kTension / EI), half = 0.5 * kLength * (1 + kStretch);
       const double moment =
           std::atan(kTilt) * EI * k * k * half / (k * half / std::tanh(k * half) - 1);
-      Validate({"Tension", "lead held askew, EI/(T L^2) = " + Shown(stiffness) + ": moment [N m]",
+      Validate({"Tension",
+                Named("lead held askew, EI/(T L^2)", stiffness, elements) + "moment [N m]",
                 "boundary layer sqrt(EI/T)", moment, rod.reaction_a().moment.norm(), 0.01 * moment,
                 elements});
     }
@@ -151,7 +157,7 @@ TEST(PublishedTension, ARopeHangsInItsCatenary) {
   for (const double stiffness : {1e-6, 1e-10})
     for (const int elements : {10, 20, 40, 160}) {
       const Rod rod = HangingRope(RopeModel(stiffness, 1e-6, elements), kSpan);
-      const std::string name = "rope, EI/(w L^3) = " + Shown(stiffness) + ": ";
+      const std::string name = Named("rope, EI/(w L^3)", stiffness, elements);
       Validate({"Tension", name + "sag [m]", "catenary", sag, -rod.pose(elements / 2).p.z(),
                 Allowed(elements) * sag, elements});
       Validate({"Tension", name + "H [N]", "catenary", H, rod.reaction_b().force.x(),
@@ -186,8 +192,8 @@ TEST(PublishedTension, AShallowRopeHasIrvinesFrequencies) {
       const std::vector<Mode> modes = FindModes(rod, 4);
       for (int n = 0; n < 4; ++n)
         Validate({"Tension",
-                  "shallow rope, EI/(w L^3) = " + Shown(stiffness) + ", mode " +
-                      std::to_string(n + 1) + ": w [rad/s]",
+                  Named("shallow rope, EI/(w L^3)", stiffness, elements) + "w of mode " +
+                      std::to_string(n + 1) + " [rad/s]",
                   "Irvine 1981", expected[n], modes[n].w, kWithin * expected[n], elements});
     }
 }
@@ -227,7 +233,7 @@ TEST(PublishedTension, AHangingTetherSwingsWithItsLoad) {
           StraightShape(Facing(Vector3d::Zero(), -Vector3d::UnitZ()), kLength, elements));
       ASSERT_TRUE(rod.Equilibrate().converged);
       const std::string name =
-          "hanging tether with its own weight as load, EI/(w L^3) = " + Shown(stiffness) + ": ";
+          Named("tether under its own weight as load, EI/(w L^3)", stiffness, elements);
       const double weight = 2 * kRhoA * kLength * kGravity;
       Validate({"Tension", name + "T at the clamp [N]", "weights", weight,
                 rod.reaction_a().force.z(), kMany * weight, elements});
