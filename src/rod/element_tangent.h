@@ -23,6 +23,10 @@ struct TangentLaw {
   Vec3<T> cf, cm;  ///< by the element's length [N/m], [N m]
 };
 
+/// A pressure of 6 EI/h^2 and more, which no element bears, is one of Newton's on its way, or
+/// passes in a blink: it takes no more than this part of a modulus.
+inline constexpr double kLeast = 0.5;
+
 /// Symmetric 12x12 tangent of one element in its blocks. Signs: rows r2; r1 has the opposite ones.
 template <class T>
 struct ElementTangent {
@@ -103,8 +107,8 @@ template <class T>
 struct BendingModulus {
   BendingModulus(const ElementState<T>& e, const TangentLaw<T>& law) : cm(law.cm) {
     const T twice = e.n.z + e.n.z;
-    cm.x += twice * law.bowing.bend_x;
-    cm.y += twice * law.bowing.bend_y;
+    cm.x = Max(cm.x + twice * law.bowing.bend_x, kLeast * cm.x);
+    cm.y = Max(cm.y + twice * law.bowing.bend_y, kLeast * cm.y);
     const Vec3<T> half = T(0.5) * cm;
     sum = {half.y + half.z, half.z + half.x, half.x + half.y};
     difference = {half.z - half.y, half.x - half.z, half.y - half.x};
@@ -129,10 +133,9 @@ ElementTangent<T> EvaluateTangent(const ElementState<T>& e, const TangentLaw<T>&
   ElementTangent<T> k;
   const Vec3<T>&t = e.theta, &m = e.m_theta;
   const StrainTangent<T> strain(e, law.bowing);
-  // As the chord turns in space, its own part of the force turns with it. A pressure of 5 EI/h^2
-  // and more, which no element bears, is one of Newton's on its way.
+  // As the chord turns in space, its own part of the force turns with it.
   const T string =
-      Max(law.bowing.along_chord * e.one_over_chord * e.n.z, T(-0.5) * Min(law.cf.x, law.cf.y));
+      Max(law.bowing.along_chord * e.one_over_chord * e.n.z, T(-kLeast) * Min(law.cf.x, law.cf.y));
   const Vec3<T>& unit = strain.unit;
   const Mat3<T> cf_R = ScaleRows(law.cf, strain.R);
 #pragma GCC unroll 3
