@@ -50,6 +50,13 @@ boost::shared_ptr<T> Deserialized(std::vector<std::uint8_t>* bytes) {
 
 }  // namespace
 
+const std::string& BagMessage::publisher() const {
+  static const std::string kUnknown;
+  if (!connection) return kUnknown;
+  const auto found = connection->find("callerid");
+  return found == connection->end() ? kUnknown : found->second;
+}
+
 BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems) {
   for (const std::string& path : paths) {
     struct stat status {};

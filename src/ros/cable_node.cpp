@@ -3,6 +3,7 @@
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/message_event.h>
 #include <ros/param.h>
 #include <unistd.h>
 
@@ -24,6 +25,8 @@ constexpr double kSpinSeconds = 0.02;
 constexpr double kWaitingPeriod = 1;
 
 using Clock = std::chrono::steady_clock;
+using TfEvent = ros::MessageEvent<const tf2_msgs::TFMessage>;
+using JointEvent = ros::MessageEvent<const sensor_msgs::JointState>;
 
 // Adds what only the live node knows to the engine's diagnostics, and watches how late it is.
 class NodeSink : public TopicSink {
@@ -141,19 +144,22 @@ ExitCode RunNode(const NodeOptions& options) {
   NodeSink sink(&node, names);
 
   const auto hints = ros::TransportHints().tcpNoDelay();
-  const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage>(
-      "/tf", kInputQueue,
-      [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, false); },
-      ros::VoidConstPtr(), hints);
-  const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage>(
-      "/tf_static", kInputQueue,
-      [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, true); },
-      ros::VoidConstPtr(), hints);
+  const auto ingest_tf = [&engine](bool is_static) {
+    return boost::function<void(const TfEvent&)>([&engine, is_static](const TfEvent& event) {
+      engine.Ingest(*event.getConstMessage(), is_static, event.getPublisherName());
+    });
+  };
+  const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
+      "/tf", kInputQueue, ingest_tf(false), ros::VoidConstPtr(), hints);
+  const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
+      "/tf_static", kInputQueue, ingest_tf(true), ros::VoidConstPtr(), hints);
   ros::Subscriber joints;
   if (options.use_joint_states) {
-    joints = node.subscribe<sensor_msgs::JointState>(
+    joints = node.subscribe<sensor_msgs::JointState, const JointEvent&>(
         "/joint_states", kInputQueue,
-        [&](const sensor_msgs::JointStateConstPtr& message) { engine.Ingest(*message); },
+        boost::function<void(const JointEvent&)>([&](const JointEvent& event) {
+          engine.Ingest(*event.getConstMessage(), event.getPublisherName());
+        }),
         ros::VoidConstPtr(), hints);
   }
   ROS_INFO_STREAM(names.size() << " cables wait for the transforms of their links");

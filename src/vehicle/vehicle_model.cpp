@@ -17,6 +17,17 @@ namespace {
 
 using tinyxml2::XMLElement;
 
+/// A range of nothing and a velocity of zero stand where somebody had to write something.
+void ReadLimits(const urdf::Joint& joint, JointModel* model) {
+  if (!joint.limits) return;
+  const bool bounded = joint.type == urdf::Joint::REVOLUTE || joint.type == urdf::Joint::PRISMATIC;
+  if (bounded && joint.limits->upper > joint.limits->lower) {
+    model->lower = joint.limits->lower;
+    model->upper = joint.limits->upper;
+  }
+  if (joint.limits->velocity > 0) model->velocity = joint.limits->velocity;
+}
+
 JointModel ToJoint(const urdf::Joint& joint) {
   JointModel model;
   model.name = joint.name;
@@ -40,6 +51,7 @@ JointModel ToJoint(const urdf::Joint& joint) {
   }
   const Eigen::Vector3d axis(joint.axis.x, joint.axis.y, joint.axis.z);
   if (axis.norm() > 0) model.axis = axis.normalized();
+  ReadLimits(joint, &model);
   if (joint.mimic) {
     model.mimic = joint.mimic->joint_name;
     model.mimic_multiplier = joint.mimic->multiplier;

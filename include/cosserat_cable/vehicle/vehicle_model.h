@@ -2,6 +2,7 @@
 // joint.
 #pragma once
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,6 +25,11 @@ struct JointModel {
   /// joint follows none itself: LoadVehicle resolves chains.
   std::string mimic;
   double mimic_multiplier = 1, mimic_offset = 0;
+
+  /// Limits of the position [rad] or [m] and of its rate [/s]; infinite where there are none.
+  double lower = -std::numeric_limits<double>::infinity();
+  double upper = std::numeric_limits<double>::infinity();
+  double velocity = std::numeric_limits<double>::infinity();
 
   /// Pose of the child in the parent at a position [rad] or [m]. Fixed and floating joints have
   /// none: X_PJ whatever it is.
