@@ -226,7 +226,10 @@ void EdgeJudge::Impl::ReportJumps(Findings* findings) const {
   finding.what += " from one sample to the next (" +
                   Printed("%.3g ", channel->jumps().acceleration) + finding.unit + "/s^2)";
   finding.remedy =
-      "is the pose reset, or corrected by a localisation? record a frame that moves smoothly";
+      role == EdgeRole::kJoint
+          ? "was its encoder reset, or are these outliers? cut the recording there (--start, "
+            "--duration), or use --smooth HZ"
+          : "is the pose reset, or corrected by a localisation? record a frame that moves smoothly";
   findings->push_back(std::move(finding));
 }
 

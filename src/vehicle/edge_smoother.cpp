@@ -11,8 +11,8 @@ namespace {
 
 // (1 + u) exp(-u) = 1 / sqrt(2) at u = 1.0780: s = sqrt(2 u) / (2 pi cutoff).
 constexpr double kWidth = 0.2337;  // of a period of the cutoff
-// Beyond so many widths weights are below 0.3 %.
-constexpr double kReach = 3.5;
+// Beyond so many widths nothing is left that changes the gain by 0.1 %.
+constexpr double kReach = 4.5;
 // A steady clock is fitted over so long on either side [s]: hundreds of delays even out.
 constexpr double kClockReach = 1;
 // As EdgeJudge finds late stamps: samples so far apart [s], smoother by so much, and rough enough

@@ -6,13 +6,14 @@
 namespace cosserat_cable {
 namespace {
 
-// Samples farther apart in time are not compared [ns].
+// Between samples farther apart than this an edge may do anything [ns].
 constexpr std::int64_t kTogether = 500'000'000;
-// What two sources of the same value differ by at most: rounding to float, to a millimetre [m],
-// [rad].
+// What two sources of one value differ by at most: rounding to float or to a millimetre [m], [rad].
 constexpr double kSameTranslation = 1e-3, kSameRotation = 2e-3;
-// What an edge moves in a time, at most, times what it moved in the same time just before.
-constexpr double kFaster = 3;
+// What a motion bends away from the straight line between two samples, in the step between them.
+constexpr double kBend = 0.5;
+// The faster publisher is interpolated: its samples say what happened between the other's.
+constexpr double kFaster = 1.5;
 
 double Angle(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond turn = from.conjugate() * to;
@@ -22,49 +23,52 @@ double Angle(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
 }  // namespace
 
 void PublisherJudge::Add(int publisher, std::int64_t stamp, const Pose& X_PC) {
-  Publisher* same = nullptr;
-  for (Publisher& known : publishers_) {
-    if (known.number == publisher)
-      same = &known;
-    else
-      Compare(known, publisher, stamp, X_PC);
-  }
-  if (!same) {
+  auto same = std::find_if(publishers_.begin(), publishers_.end(),
+                           [&](const Publisher& known) { return known.number == publisher; });
+  if (same == publishers_.end()) {
     publishers_.emplace_back();
-    same = &publishers_.back();
+    same = publishers_.end() - 1;
     same->number = publisher;
-  } else if (publishers_.size() > 1 && stamp > same->stamp) {
-    same->interval = stamp - same->stamp;
-    same->step = (X_PC.p - same->X.p).norm();
-    same->turn = Angle(same->X.q, X_PC.q);
-  }
-  same->stamp = stamp;
-  same->X = X_PC;
-}
-
-void PublisherJudge::Compare(const Publisher& known, int publisher, std::int64_t stamp,
-                             const Pose& X_PC) {
-  const std::int64_t apart = std::abs(stamp - known.stamp);
-  if (known.interval == 0 || apart > kTogether) return;
-  const double intervals =
-      kFaster * std::max(1.0, static_cast<double>(apart) / static_cast<double>(known.interval));
-  const double translation = (X_PC.p - known.X.p).norm();
-  const double rotation = Angle(known.X.q, X_PC.q);
-  // Of messages with the same stamp nothing has moved.
-  const double moved = apart == 0 ? 0 : intervals;
-  if (translation <= kSameTranslation + moved * known.step &&
-      rotation <= kSameRotation + moved * known.turn) {
+  } else if (stamp <= same->last.stamp) {
     return;
   }
-  if (conflict_.count == 0) conflict_.first = stamp;
+  same->before = same->last;
+  same->last = {stamp, X_PC};
+  if (publishers_.size() == 1) return;
+  for (const Publisher& other : publishers_) {
+    if (other.number == publisher) continue;
+    Compare(other, *same);
+    Compare(*same, other);
+  }
+}
+
+// The last sample of `slow` with the motion of `fast` at that time.
+void PublisherJudge::Compare(const Publisher& fast, const Publisher& slow) {
+  const std::int64_t interval = fast.last.stamp - fast.before.stamp;
+  const std::int64_t longer = slow.last.stamp - slow.before.stamp;
+  const bool known = fast.before.stamp > 0 && slow.before.stamp > 0 && interval <= kTogether &&
+                     static_cast<double>(interval) <= kFaster * static_cast<double>(longer);
+  const Sample& sample = slow.last;
+  if (!known || sample.stamp < fast.before.stamp || sample.stamp > fast.last.stamp) return;
+  const double part =
+      static_cast<double>(sample.stamp - fast.before.stamp) / static_cast<double>(interval);
+  const Eigen::Vector3d p = fast.before.X.p + part * (fast.last.X.p - fast.before.X.p);
+  const Eigen::Quaterniond q = fast.before.X.q.slerp(part, fast.last.X.q);
+  const double translation = (sample.X.p - p).norm();
+  const double rotation = Angle(q, sample.X.q);
+  const double step = (fast.last.X.p - fast.before.X.p).norm();
+  const double turn = Angle(fast.before.X.q, fast.last.X.q);
+  if (translation <= kSameTranslation + kBend * step && rotation <= kSameRotation + kBend * turn)
+    return;
+  if (conflict_.count == 0) conflict_.first = sample.stamp;
   // A radian at half a metre weighs as much as half a metre.
   constexpr double kLever = 0.5;
   if (translation + kLever * rotation > conflict_.translation + kLever * conflict_.rotation) {
-    conflict_.worst = stamp;
+    conflict_.worst = sample.stamp;
     conflict_.translation = translation;
     conflict_.rotation = rotation;
-    conflict_.one = known.number;
-    conflict_.other = publisher;
+    conflict_.one = std::min(fast.number, slow.number);
+    conflict_.other = std::max(fast.number, slow.number);
   }
   ++conflict_.count;
 }

@@ -65,9 +65,9 @@ RecordingJudge::Edge* RecordingJudge::At(const std::string& parent, const std::s
 }
 
 int RecordingJudge::Publisher(const std::string& name) {
-  const auto found = std::find(publishers_.begin(), publishers_.end(), name);
-  if (found == publishers_.end()) publishers_.push_back(name);
-  return static_cast<int>(found - publishers_.begin());
+  const auto number = std::find(publishers_.begin(), publishers_.end(), name) - publishers_.begin();
+  if (number == static_cast<std::ptrdiff_t>(publishers_.size())) publishers_.push_back(name);
+  return static_cast<int>(number);
 }
 
 void RecordingJudge::AddMotion(Edge* edge, std::int64_t stamp, const Pose& X_PC) {

@@ -3,7 +3,7 @@
 // Each sample is replaced by the value there of a quadratic (cubic polynomials pass unchanged) that
 // is fitted to its neighbours with the weights exp(-t^2 / (2 s^2)). On dense samples its gain is
 //   H(f) = (1 + u) exp(-u),  u = (2 pi f s)^2 / 2,
-// 0.71 at the cutoff, 0.07 at twice it. It needs kReach / cutoff seconds of what comes after.
+// 0.71 at the cutoff, 0.07 at twice it. It needs some 1.05 / cutoff seconds of what comes after.
 //
 // Stamps of publishing instead of measurement make steady motion uneven. Where samples that are
 // counted out evenly are far smoother than by their stamps, the stamps are replaced by the steady

@@ -18,7 +18,7 @@ class PublisherJudge {
     int one = 0, other = 0;                ///< who said it
   };
 
-  /// A sample of this edge, in whichever order.
+  /// A sample of this edge. One that is no later than the publisher's last is left out.
   void Add(int publisher, std::int64_t stamp, const Pose& X_PC);
   /// Time starts anew; what was found stays.
   void Restart() { publishers_.clear(); }
@@ -26,15 +26,16 @@ class PublisherJudge {
   const Conflict& conflict() const { return conflict_; }
 
  private:
+  struct Sample {
+    std::int64_t stamp = 0;  // [ns]; 0: none
+    Pose X;
+  };
   struct Publisher {
     int number = 0;
-    std::int64_t stamp = 0;     // of the last sample [ns]
-    std::int64_t interval = 0;  // between the last two; 0: there is but one
-    Pose X;
-    double step = 0, turn = 0;  // between the last two
+    Sample before, last;
   };
 
-  void Compare(const Publisher& known, int publisher, std::int64_t stamp, const Pose& X_PC);
+  void Compare(const Publisher& fast, const Publisher& slow);
 
   std::vector<Publisher> publishers_;
   Conflict conflict_;
