@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "clamp_survey.h"
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/contact/body.h"
 #include "cosserat_cable/input/gravity.h"
@@ -27,11 +28,6 @@ std::string Join(const std::vector<std::string>& words) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
   return text;
-}
-
-void Feed(const BagMessage& message, LinkMotion* links) {
-  if (message.tf) links->Ingest(*message.tf, message.is_static);
-  if (message.joints) links->Ingest(*message.joints);
 }
 
 // Where the cables' clamps are when everything is first known, and whether cables can be hung
@@ -106,6 +102,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
     return true;
   });
+  links.Finish();
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason);
   }
@@ -122,7 +119,15 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   survey.edges = links.edges();
   survey.warnings = links.warnings().counts();
   survey.gaps = links.gap_count();
-  survey.world = links.world();
+  survey.world = links.SmoothWorld();
+  if (survey.world != links.world()) survey.topmost = links.world();
+  // What is above the inertial frame moves no cable.
+  for (auto above = survey.edges.find(survey.world); above != survey.edges.end();
+       above = survey.edges.find(above->second.parent)) {
+    if (above->second.is_followed) survey.gaps -= above->second.gaps;
+    above->second.is_followed = false;
+  }
+  survey.findings = links.MotionFindings(survey.world);
   for (const auto& [child, edge] : survey.edges) {
     const bool by_tf =
         edge.source == LinkMotion::Source::kTf || edge.source == LinkMotion::Source::kTfStatic;
@@ -131,6 +136,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (!links.Missing().empty()) return;
 
   link_options.world_frame = survey.world;
+  link_options.judge = false;
   LinkMotion again(inputs->vehicle, needed, link_options);
   const auto dt = static_cast<std::int64_t>(options.dt * 1e9);
   const auto known = [&] {
@@ -155,6 +161,14 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   }
   CheckFirstInstant(again, survey.first_step, *inputs, &survey, problems);
   AddNotes(paths, options, *inputs, &survey);
+  if (paths.follow_clamps) {
+    EngineOptions followed = options;
+    followed.links.world_frame = survey.world;
+    survey.clamps = FollowClamps(bags, survey.from, survey.to, inputs->vehicle,
+                                 inputs->cables.cables, followed);
+    for (const ClampJudge& clamps : survey.clamps)
+      for (Finding& finding : clamps.Report()) survey.findings.push_back(std::move(finding));
+  }
   inputs->survey = std::move(survey);
 }
 

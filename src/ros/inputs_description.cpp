@@ -29,7 +29,9 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
     std::snprintf(line, sizeof line, "cable '%s': %g mm, %s to %s, %d elements", cable.name.c_str(),
                   1e3 * cable.length, cable.a.link.c_str(), cable.b.link.c_str(), cable.elements);
     text << line;
-    if (inputs.survey && i < inputs.survey->chords.size()) {
+    if (inputs.survey && i < inputs.survey->clamps.size()) {
+      text << ", clamps " << inputs.survey->clamps[i].Describe();
+    } else if (inputs.survey && i < inputs.survey->chords.size()) {
       std::snprintf(line, sizeof line, ", clamps %.1f mm apart at first (%.0f %% of its length)",
                     1e3 * inputs.survey->chords[i], 100 * inputs.survey->chords[i] / cable.length);
       text << line;
@@ -38,8 +40,10 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
   }
   if (!inputs.survey) return text.str();
   const BagSurvey& survey = *inputs.survey;
-  text << "inertial frame '" << survey.world << "'"
-       << (survey.world_is_recorded ? "" : " (the URDF's root: no frame above it is recorded)")
+  text << "inertial frame '" << survey.world << "'";
+  if (!survey.topmost.empty())
+    text << " (not '" << survey.topmost << "': a localisation's corrections move what is above)";
+  text << (survey.world_is_recorded ? "" : " (the URDF's root: no frame above it is recorded)")
        << "\n";
   text << GravityText(options.gravity_W, survey.world) << "\n";
   if (inputs.bags->topics().use_record_times)
@@ -51,15 +55,18 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
     if (edge.samples < 2) continue;
     const double seconds = static_cast<double>(edge.last - edge.first) * 1e-9;
     std::snprintf(
-        line, sizeof line, "%s -> %s by %s: %.1f Hz, longest interval %.1f ms, %llu gaps\n",
+        line, sizeof line, "%s -> %s by %s: %.1f Hz, longest interval %.1f ms, %llu gaps%s\n",
         edge.parent.c_str(), child.c_str(), ToString(edge.source, inputs.bags->topics()).c_str(),
         static_cast<double>(edge.samples - 1) / seconds,
         static_cast<double>(edge.longest_interval) * 1e-6,
-        static_cast<unsigned long long>(edge.gaps));
+        static_cast<unsigned long long>(edge.gaps), edge.moves ? "" : ", does not move");
     text << line;
   }
   for (const auto& [kind, count] : survey.warnings) {
     text << "warning: " << kind << ": " << count << "\n";
+  }
+  for (const Finding& finding : survey.findings) {
+    text << "warning: " << finding.ToString() << "\n";
   }
   for (const std::string& note : survey.notes) text << "note: " << note << "\n";
   return text.str();
@@ -80,7 +87,10 @@ std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
     const CableModel& cable = inputs.cables.cables[i];
     json << separator << "\n    " << JsonString(cable.name)
          << ": {\"length\": " << JsonNumber(cable.length) << ", \"chord\": "
-         << (inputs.survey ? JsonNumber(inputs.survey->chords[i]) : std::string("null")) << "}";
+         << (inputs.survey ? JsonNumber(inputs.survey->chords[i]) : std::string("null"));
+    if (inputs.survey && i < inputs.survey->clamps.size())
+      json << JsonClamps(inputs.survey->clamps[i].range());
+    json << "}";
     separator = ",";
   }
   json << "},\n  \"world_frame\": "
@@ -89,6 +99,8 @@ std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
        << (inputs.survey ? JsonStrings(inputs.survey->notes) : std::string("[]"))
        << ",\n  \"use_record_times\": "
        << (options.links.topics.use_record_times ? "true" : "false")
+       << ",\n  \"findings\": "
+       << (inputs.survey ? JsonFindings(inputs.survey->findings) : std::string("[]"))
        << ",\n  \"gaps\": " << (inputs.survey ? std::to_string(inputs.survey->gaps) : "null")
        << "\n}\n";
   return json.str();

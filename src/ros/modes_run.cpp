@@ -177,6 +177,7 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
   Scene scene;
   Place place;
   LinkMotionOptions link_options = options.engine.links;
+  link_options.judge = false;
   if (inputs.survey) link_options.world_frame = inputs.survey->world;
   std::optional<LinkMotion> links;
   if (options.bags.empty()) {

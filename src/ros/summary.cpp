@@ -41,25 +41,28 @@ std::string Summary::ToText() const {
        << Format("%.0f", peak_memory / 1e6) << " MB\n";
   text << "inertial frame '" << world_frame << "', " << GravityText(gravity_W, world_frame) << "\n";
   if (use_record_times) text << "times are those of recording, not the messages' stamps\n";
-  char line[200];
-  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8s\n", "cable", "amplitude",
-                "curvature", "clearance", "contact", "energy", "retries");
+  char line[240];
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s %8s\n", "cable", "amplitude",
+                "curvature", "clearance", "contact", "tension", "energy", "retries");
   text << line;
-  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s\n", "", "max [mm]", "max [1/m]",
-                "min [mm]", "max [N]", "off by");
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s\n", "", "max [mm]",
+                "max [1/m]", "min [mm]", "max [N]", "max [N]", "off by");
   text << line;
   for (const CableSummary& cable : cables) {
     std::snprintf(
-        line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8llu\n", cable.name.c_str(),
+        line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s %8llu\n", cable.name.c_str(),
         Millimetres(cable.amplitude_max).c_str(), Format("%.2f", cable.curvature_max).c_str(),
         Millimetres(cable.clearance_min).c_str(), Format("%.2f", cable.contact_force_max).c_str(),
-        EnergyError(cable).c_str(), static_cast<unsigned long long>(cable.retried_steps));
+        Format("%.2f", cable.tension_max).c_str(), EnergyError(cable).c_str(),
+        static_cast<unsigned long long>(cable.retried_steps));
     text << line;
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
+  if (smooth > 0) text << "links smoothed by a low-pass of " << Format("%g", smooth) << " Hz\n";
   for (const auto& [kind, count] : warnings) text << "warning: " << kind << ": " << count << "\n";
+  for (const Finding& finding : findings) text << "warning: " << finding.ToString() << "\n";
   for (const std::string& note : notes) text << "note: " << note << "\n";
   return text.str();
 }
@@ -80,7 +83,8 @@ std::string Summary::ToJson() const {
     json << separator << "\n    " << JsonString(kind) << ": " << count;
     separator = ",";
   }
-  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"cables\": {";
+  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"smooth\": " << JsonNumber(smooth)
+       << ",\n  \"findings\": " << JsonFindings(findings) << ",\n  \"cables\": {";
   separator = "";
   for (const CableSummary& cable : cables) {
     json << separator << "\n    " << JsonString(cable.name) << ": {\"steps\": " << cable.steps
@@ -90,7 +94,7 @@ std::string Summary::ToJson() const {
          << ", \"curvature_max\": " << JsonNumber(cable.curvature_max)
          << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
          << ", \"contact_force_max\": " << JsonNumber(cable.contact_force_max)
-         << ", \"tension_max\": " << JsonNumber(cable.tension_max)
+         << ", \"tension_max\": " << JsonNumber(cable.tension_max) << JsonClamps(cable.clamps)
          << ", \"dissipated\": " << JsonNumber(cable.dissipated)
          << ", \"energy_residual\": " << JsonNumber(cable.energy_residual) << ", \"failure\": "
          << (cable.failure.empty() ? std::string("null") : JsonString(cable.failure)) << "}";

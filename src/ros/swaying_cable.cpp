@@ -18,13 +18,25 @@ CableEngine::SwayingCable::SwayingCable(const CableModel& model, std::vector<con
       simulation_(model, std::move(obstacles), options.gravity_W, options.clearance_reach),
       frames_(std::move(frames)),
       index_(index),
-      history_(std::llround(1e9 * options.amplitude_window)) {
+      history_(std::llround(1e9 * options.amplitude_window)),
+      clamps_(model.name, model.length, model.diameter) {
   surroundings_.obstacles.resize(frames_.obstacles.size());
   summary_.name = model.name;
 }
 
 diagnostic_msgs::DiagnosticStatus CableEngine::SwayingCable::Diagnostics() const {
-  return CableDiagnostics(summary_, failed_, message_, held_);
+  return CableDiagnostics(summary(), failed_, message_, held_);
+}
+
+CableSummary CableEngine::SwayingCable::summary() const {
+  CableSummary summary = summary_;
+  summary.clamps = clamps_.range();
+  return summary;
+}
+
+void CableEngine::SwayingCable::JudgeClamps(const Instant& now) {
+  clamps_.Add(now.time, now.frames[frames_.a].X * model().a.X_LC,
+              now.frames[frames_.b].X * model().b.X_LC);
 }
 
 void CableEngine::SwayingCable::Surround(const Instant& now) {
@@ -37,6 +49,8 @@ void CableEngine::SwayingCable::Surround(const Instant& now) {
 void CableEngine::SwayingCable::Settle(const Instant& now, const std::string& world) {
   failed_ = false;
   history_.Clear();
+  clamps_.Restart();
+  JudgeClamps(now);
   Surround(now);
   const StepOutcome outcome = simulation_.Settle(surroundings_);
   if (!outcome.ok) {
@@ -88,6 +102,7 @@ void CableEngine::SwayingCable::Record(const Instant& now) {
 }
 
 void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world) {
+  if (now.telemetry) JudgeClamps(now);
   if (now.telemetry && !failed_ && !TellTelemetry(now))
     Fail("its state is not finite", now.time, world);
   if (!now.markers) return;

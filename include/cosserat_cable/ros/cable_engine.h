@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct EngineOptions {
   std::string dump_directory = ".";  ///< where a failed cable's state is written
   int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
+  Findings known;  ///< of the recording, where it was judged before; told along with the run's own
 
   /// Takes `gravity` over into gravity_W; what is wrong with it is a problem.
   void ApplyGravity(Problems* problems);
@@ -60,8 +62,10 @@ class CableEngine {
               const std::vector<CableModel>& cables, EngineOptions options);
   ~CableEngine();
 
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static);
-  void Ingest(const sensor_msgs::JointState& message);
+  /// `publisher`: the node's name.
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
+              const std::string& publisher = "");
+  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "");
   /// No more samples will come: Advance then goes up to the last.
   void Finish();
 
@@ -79,6 +83,8 @@ class CableEngine {
   bool AnyFailed() const;
   /// Sentences to be said to the user, each once.
   std::vector<std::string> TakeNews();
+  /// What cannot be, of the recording, the samples and the cables' clamps, until now.
+  Findings AllFindings() const;
   /// Wall time and memory are the caller's to fill in.
   Summary MakeSummary() const;
 
@@ -100,6 +106,7 @@ class CableEngine {
   void MeasureClearances();
   void TakeMeasured();
   void TellDiagnostics();
+  void TellFindings(const Findings& findings);
   void Deliver(OutputSink* sink);
   bool Due(std::int64_t period, std::int64_t time) const;
   std::size_t FrameIndex(const std::string& link) const;
@@ -123,6 +130,7 @@ class CableEngine {
   std::uint64_t seen_clears_ = 0;
   std::uint64_t resets_ = 0;
   std::vector<std::string> news_;
+  std::set<std::string> told_findings_;
 };
 
 }  // namespace cosserat_cable

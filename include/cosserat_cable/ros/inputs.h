@@ -19,6 +19,7 @@ struct InputPaths {
   std::vector<std::string> bags;  ///< may be empty
   double start = 0;               ///< after the first bag's begin [s]
   double duration = 0;            ///< [s]; 0: to the end
+  bool follow_clamps = false;     ///< through the whole recording, not only at its first instant
 };
 
 /// What the bags will do to the cables.
@@ -31,6 +32,9 @@ struct BagSurvey {
   std::uint64_t gaps = 0;
   std::int64_t first_step = 0;     ///< when all links are known [ns]
   std::vector<double> chords;      ///< between each cable's clamps at that time [m]
+  std::string topmost;             ///< the frame above all, where another one is the inertial frame
+  std::vector<ClampJudge> clamps;  ///< of each cable, where they were followed
+  Findings findings;               ///< what the recording says that cannot be
   std::vector<std::string> notes;  ///< what the user may want to set otherwise
 };
 

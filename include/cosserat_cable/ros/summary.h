@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/vehicle/clamp_judge.h"
+#include "cosserat_cable/vehicle/finding.h"
+
 namespace cosserat_cable {
 
 struct CableSummary {
@@ -23,6 +26,7 @@ struct CableSummary {
   double dissipated = 0;       ///< since the cable last settled [J]
   double energy_residual = 0;  ///< what the energy balance lacks [J]
   std::string failure;         ///< empty while all is well
+  ClampJudge::Range clamps;    ///< how they moved to one another
 };
 
 struct Summary {
@@ -35,7 +39,9 @@ struct Summary {
   double peak_memory = 0;                               ///< resident [bytes]
   std::uint64_t resets = 0;                             ///< time ran backwards
   std::uint64_t gaps = 0;                               ///< of the input
+  double smooth = 0;                                    ///< cutoff of the links' motion [Hz]; 0: none
   std::map<std::string, std::uint64_t> warnings;
+  Findings findings;  ///< what the input says that cannot be
   std::vector<CableSummary> cables;
 
   double real_time_factor() const { return wall_time > 0 ? simulated_time / wall_time : 0; }
