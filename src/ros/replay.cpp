@@ -121,6 +121,9 @@ ExitCode RunReplay(ReplayOptions options) {
               << "' is taken as inertial\n";
   }
 
+  for (const Problem& note : inputs.vehicle.notes.all())
+    std::cerr << "note: " << note.ToString() << "\n";
+
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   ExitCode code = kExitDone;
   try {

@@ -39,7 +39,7 @@ struct Inputs {
   BodyMap bodies;  ///< of the links that cables avoid
   std::unique_ptr<BagReader> bags;
   std::optional<BagSurvey> survey;  ///< where the bags could be followed
-  int triangles = 0;                ///< of all collision meshes that cables avoid
+  int triangles = 0;                ///< of all meshes that cables avoid
 };
 
 /// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.

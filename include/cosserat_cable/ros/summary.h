@@ -18,10 +18,22 @@ struct CableSummary {
   double clearance_min = std::numeric_limits<double>::infinity();  ///< [m]
   double contact_force_max = 0;                                    ///< [N]
   double tension_max = 0;                                          ///< [N]
-  double amplitude_max = 0;    ///< peak to peak over the window [m]
-  double dissipated = 0;       ///< since the cable last settled [J]
-  double energy_residual = 0;  ///< what the energy balance lacks [J]
-  std::string failure;         ///< empty while all is well
+  double amplitude_max = 0;           ///< peak to peak over the window [m]
+  double dissipated = 0;              ///< since the cable last settled [J]
+  double energy_residual = 0;         ///< what the energy balance lacks [J]
+  std::size_t bodies = 0;             ///< that it is kept clear of; 0: no clearance is measured
+  double radius = 0;                  ///< [m]
+  double contact_stiffness = 0;       ///< [N/m]
+  double penetration_max = 0;         ///< of the radius into a body, over all steps [m]
+  std::int64_t penetration_time = 0;  ///< when [ns]
+  double penetration_s = 0;           ///< where along the cable [m]
+  std::string penetration_body;       ///< the link; empty where nothing was touched
+  double stiffness_needed =
+      0;                ///< where that was too deep: a contact stiffness that would do [N/m]
+  std::string failure;  ///< empty while all is well
+
+  /// How deep the cable sank and what to do; "" where it was not too deep.
+  std::string DepthWarning() const;
 };
 
 struct Summary {
