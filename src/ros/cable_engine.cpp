@@ -97,15 +97,22 @@ BodyMap MakeBodies(const VehicleModel& vehicle, int threads) {
   oneapi::tbb::task_arena arena(Concurrency(threads));
   arena.execute([&] {
     oneapi::tbb::task_group making;
-    for (const auto& [link, shapes] : vehicle.collision) {
-      if (shapes.empty()) continue;
-      making.run([&store, &shapes = shapes, &body = bodies[link]] {
-        body = std::make_unique<Body>(shapes, &store);
-      });
+    for (const bool visual : {false, true}) {
+      for (const auto& [link, shapes] : visual ? vehicle.visual : vehicle.collision) {
+        if (shapes.empty()) continue;
+        making.run([&store, &shapes = shapes, &body = bodies[{link, visual}]] {
+          body = std::make_unique<Body>(shapes, &store);
+        });
+      }
     }
     making.wait();
   });
   return bodies;
+}
+
+const Body* FindBody(const BodyMap& bodies, const CableModel& cable, const std::string& link) {
+  const auto body = bodies.find({link, cable.avoid_visual.count(link) > 0});
+  return body == bodies.end() ? nullptr : body->second.get();
 }
 
 CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
@@ -121,16 +128,18 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
   for (const CableModel& model : cables) {
     std::vector<const Body*> obstacles;
     std::vector<std::size_t> frames;
+    std::vector<std::string> names;
     for (const std::string& link : model.avoid) {
-      const auto body = bodies.find(link);
-      if (body == bodies.end()) continue;
-      obstacles.push_back(body->second.get());
+      const Body* body = FindBody(bodies, model, link);
+      if (!body) continue;
+      obstacles.push_back(body);
       frames.push_back(FrameIndex(link));
+      names.push_back(link);
     }
     cables_.push_back(std::make_unique<SwayingCable>(
         model, obstacles,
         SwayingCable::Frames{FrameIndex(model.reference), FrameIndex(model.a.link),
-                             FrameIndex(model.b.link), frames},
+                             FrameIndex(model.b.link), frames, names},
         cables_.size(), options_));
   }
   std::vector<CableSimulation*> simulations;

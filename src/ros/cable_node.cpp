@@ -163,6 +163,7 @@ ExitCode RunNode(const NodeOptions& options) {
     for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
     return kExitBadInput;
   }
+  for (const Problem& note : inputs.vehicle.notes.all()) ROS_WARN_STREAM(note.ToString());
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   std::vector<std::string> names;
   for (const CableModel& cable : inputs.cables.cables) names.push_back(cable.name);

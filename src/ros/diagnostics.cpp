@@ -24,8 +24,11 @@ DiagnosticStatus CableDiagnostics(const CableSummary& cable, bool failed,
   DiagnosticStatus status;
   status.name = "cosserat_cable: " + cable.name;
   status.hardware_id = "none";
-  status.level = failed ? DiagnosticStatus::ERROR : DiagnosticStatus::OK;
-  status.message = message;
+  const std::string warning = cable.DepthWarning();
+  status.level = failed            ? DiagnosticStatus::ERROR
+                 : warning.empty() ? DiagnosticStatus::OK
+                                   : DiagnosticStatus::WARN;
+  status.message = failed || warning.empty() ? message : warning;
   AddValue("steps", static_cast<double>(cable.steps), &status);
   AddValue("retried steps", static_cast<double>(cable.retried_steps), &status);
   AddValue("iterations per step",
@@ -37,6 +40,10 @@ DiagnosticStatus CableDiagnostics(const CableSummary& cable, bool failed,
   AddValue("amplitude max [m]", cable.amplitude_max, &status);
   AddValue("curvature max [1/m]", cable.curvature_max, &status);
   AddValue("clearance min [m]", cable.clearance_min, &status);
+  AddValue("bodies to avoid", static_cast<double>(cable.bodies), &status);
+  AddValue("penetration max [m]", cable.penetration_max, &status);
+  AddValue("penetration max [% of radius]",
+           cable.radius > 0 ? 100 * cable.penetration_max / cable.radius : 0, &status);
   AddValue("contact force max [N]", cable.contact_force_max, &status);
   AddValue("tension max [N]", cable.tension_max, &status);
   return status;

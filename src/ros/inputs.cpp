@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "avoided_links.h"
 #include "clamp_survey.h"
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/contact/body.h"
@@ -43,11 +44,11 @@ void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs&
     survey->chords.push_back(chord);
     CheckClampDistance(cable, marks, chord, problems);
     for (const std::string& link : cable.avoid) {
-      const auto body = inputs.bodies.find(link);
-      if (body == inputs.bodies.end()) continue;
+      const Body* body = FindBody(inputs.bodies, cable, link);
+      if (!body) continue;
       const Pose X_BW = links.Evaluate(link, time).X.Inverse();
       const auto check = [&](const Pose& X_WC, const char* name, const SourceMark& mark) {
-        const Clearance clearance = body->second->Query(X_BW * X_WC.p, cable.diameter);
+        const Clearance clearance = body->Query(X_BW * X_WC.p, cable.diameter);
         // A clamp sits on a surface; one that is deeper than the cable is thick sits inside.
         if (clearance.distance >= -cable.diameter) return;
         char text[160];
@@ -182,16 +183,21 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
 
   Problems cable_problems;
   inputs.cables = LoadCableFile(paths.cables, &cable_problems);
-  std::set<std::string> avoided;
+  std::set<std::string> collision, visual;
   for (const CableModel& cable : inputs.cables.cables) {
-    avoided.insert(cable.avoid.begin(), cable.avoid.end());
+    for (const std::string& link : cable.avoid)
+      (cable.avoid_visual.count(link) > 0 ? visual : collision).insert(link);
   }
+  VehicleUse use;
+  use.visual_links = {visual.begin(), visual.end()};
+  use.moving_links = NeededLinks(inputs.cables.cables);
   Problems vehicle_problems;
   const std::string folder = std::filesystem::absolute(paths.vehicle).parent_path().string();
-  inputs.vehicle = LoadVehicle(paths.vehicle, {avoided.begin(), avoided.end()},
-                               FindPackagesFrom(folder), &vehicle_problems);
+  inputs.vehicle = LoadVehicle(paths.vehicle, {collision.begin(), collision.end()},
+                               FindPackagesFrom(folder), &vehicle_problems, use);
   if (!inputs.vehicle.links.empty()) {
     CheckAgainstVehicle(inputs.cables, inputs.vehicle.links, &cable_problems);
+    CheckAvoidedLinks(inputs.cables, inputs.vehicle, paths.vehicle, &cable_problems);
     cable_problems.SortByLine();
   }
   for (const std::string& joint : options.links.held_joints) {
@@ -200,10 +206,12 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
                            "the vehicle has no joint '" + joint + "' to hold");
     }
   }
-  for (const auto& [link, shapes] : inputs.vehicle.collision) {
-    for (const Shape& shape : shapes) {
-      if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-        inputs.triangles += static_cast<int>(mesh->triangles.size());
+  for (const auto* geometry : {&inputs.vehicle.collision, &inputs.vehicle.visual}) {
+    for (const auto& [link, shapes] : *geometry) {
+      for (const Shape& shape : shapes) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+          inputs.triangles += static_cast<int>(mesh->triangles.size());
+        }
       }
     }
   }

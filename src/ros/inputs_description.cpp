@@ -6,6 +6,25 @@
 #include "json.h"
 
 namespace cosserat_cable {
+namespace {
+
+/// What a cable is kept clear of.
+std::size_t CountBodies(const Inputs& inputs, const CableModel& cable) {
+  std::size_t count = 0;
+  for (const std::string& link : cable.avoid)
+    if (FindBody(inputs.bodies, cable, link)) ++count;
+  return count;
+}
+
+std::vector<std::string> Notes(const Inputs& inputs) {
+  std::vector<std::string> notes;
+  for (const Problem& note : inputs.vehicle.notes.all()) notes.push_back(note.ToString());
+  if (inputs.survey)
+    notes.insert(notes.end(), inputs.survey->notes.begin(), inputs.survey->notes.end());
+  return notes;
+}
+
+}  // namespace
 
 std::string SharedOptionsText(const EngineOptions& options) {
   const MotionTopics usual, &topics = options.links.topics;
@@ -22,13 +41,19 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
   std::ostringstream text;
   char line[256];
   text << "vehicle '" << inputs.vehicle.name << "': " << inputs.vehicle.links.size() << " links, "
-       << inputs.vehicle.joints.size() << " joints, " << inputs.triangles
-       << " triangles that cables avoid\n";
+       << inputs.vehicle.joints.size() << " joints, " << inputs.bodies.size()
+       << " bodies that cables avoid, with " << inputs.triangles << " triangles\n";
   for (std::size_t i = 0; i < inputs.cables.cables.size(); ++i) {
     const CableModel& cable = inputs.cables.cables[i];
     std::snprintf(line, sizeof line, "cable '%s': %g mm, %s to %s, %d elements", cable.name.c_str(),
                   1e3 * cable.length, cable.a.link.c_str(), cable.b.link.c_str(), cable.elements);
     text << line;
+    const std::size_t bodies = CountBodies(inputs, cable);
+    if (bodies == 0) {
+      text << ", avoids nothing: no clearance is measured";
+    } else {
+      text << ", avoids " << bodies << (bodies == 1 ? " body" : " bodies");
+    }
     if (inputs.survey && i < inputs.survey->clamps.size()) {
       text << ", clamps " << inputs.survey->clamps[i].Describe();
     } else if (inputs.survey && i < inputs.survey->chords.size()) {
@@ -38,6 +63,8 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
     }
     text << "\n";
   }
+  for (const Problem& note : inputs.vehicle.notes.all())
+    text << "note: " << note.ToString() << "\n";
   if (!inputs.survey) return text.str();
   const BagSurvey& survey = *inputs.survey;
   text << "inertial frame '" << survey.world << "'";
@@ -81,12 +108,15 @@ std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
     json << separator << "\n    " << JsonString(problem.ToString());
     separator = ",";
   }
-  json << "],\n  \"triangles\": " << inputs.triangles << ",\n  \"cables\": {";
+  json << "],\n  \"bodies\": " << inputs.bodies.size() << ",\n  \"triangles\": " << inputs.triangles
+       << ",\n  \"cables\": {";
   separator = "";
   for (std::size_t i = 0; i < inputs.cables.cables.size(); ++i) {
     const CableModel& cable = inputs.cables.cables[i];
     json << separator << "\n    " << JsonString(cable.name)
-         << ": {\"length\": " << JsonNumber(cable.length) << ", \"chord\": "
+         << ": {\"length\": " << JsonNumber(cable.length)
+         << ", \"bodies\": " << CountBodies(inputs, cable)
+         << ", \"contact_stiffness\": " << JsonNumber(cable.contact.stiffness) << ", \"chord\": "
          << (inputs.survey ? JsonNumber(inputs.survey->chords[i]) : std::string("null"));
     if (inputs.survey && i < inputs.survey->clamps.size())
       json << JsonClamps(inputs.survey->clamps[i].range());
@@ -95,11 +125,9 @@ std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
   }
   json << "},\n  \"world_frame\": "
        << (inputs.survey ? JsonString(inputs.survey->world) : std::string("null"))
-       << ",\n  \"gravity\": " << JsonVector(options.gravity_W) << ",\n  \"notes\": "
-       << (inputs.survey ? JsonStrings(inputs.survey->notes) : std::string("[]"))
-       << ",\n  \"use_record_times\": "
-       << (options.links.topics.use_record_times ? "true" : "false")
-       << ",\n  \"findings\": "
+       << ",\n  \"gravity\": " << JsonVector(options.gravity_W)
+       << ",\n  \"notes\": " << JsonStrings(Notes(inputs)) << ",\n  \"use_record_times\": "
+       << (options.links.topics.use_record_times ? "true" : "false") << ",\n  \"findings\": "
        << (inputs.survey ? JsonFindings(inputs.survey->findings) : std::string("[]"))
        << ",\n  \"gaps\": " << (inputs.survey ? std::to_string(inputs.survey->gaps) : "null")
        << "\n}\n";

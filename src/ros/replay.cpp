@@ -136,6 +136,9 @@ ExitCode RunReplay(ReplayOptions options) {
               << inputs.survey->topmost << "' above it: a localisation's corrections move it\n";
   }
 
+  for (const Problem& note : inputs.vehicle.notes.all())
+    std::cerr << "note: " << note.ToString() << "\n";
+
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   ExitCode code = kExitDone;
   try {

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/gravity.h"
 #include "json.h"
 
@@ -34,6 +35,20 @@ std::string EnergyError(const CableSummary& cable) {
 
 }  // namespace
 
+std::string CableSummary::DepthWarning() const {
+  if (!(stiffness_needed > 0)) return "";
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "sinks %.3g mm into '%s', %.0f %% of its radius (at s = %.3g m, %.3f s): its contact "
+      "forces are too small; with `contact: {stiffness: %.1e}` instead of %.2g N/m it "
+      "would stay within %.0f %%",
+      1e3 * penetration_max, penetration_body.c_str(), 100 * penetration_max / radius,
+      penetration_s, 1e-9 * static_cast<double>(penetration_time), stiffness_needed,
+      contact_stiffness, 100 * kDeepestShareOfRadius);
+  return text;
+}
+
 std::string Summary::ToText() const {
   std::ostringstream text;
   text << "simulated " << Format("%.3f", simulated_time) << " s in " << Format("%.2f", wall_time)
@@ -52,10 +67,11 @@ std::string Summary::ToText() const {
     std::snprintf(
         line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s %8llu\n", cable.name.c_str(),
         Millimetres(cable.amplitude_max).c_str(), Format("%.2f", cable.curvature_max).c_str(),
-        Millimetres(cable.clearance_min).c_str(), Format("%.2f", cable.contact_force_max).c_str(),
-        Format("%.2f", cable.tension_max).c_str(), EnergyError(cable).c_str(),
-        static_cast<unsigned long long>(cable.retried_steps));
+        (cable.bodies > 0 ? Millimetres(cable.clearance_min) : "no body").c_str(),
+        Format("%.2f", cable.contact_force_max).c_str(), Format("%.2f", cable.tension_max).c_str(),
+        EnergyError(cable).c_str(), static_cast<unsigned long long>(cable.retried_steps));
     text << line;
+    if (cable.stiffness_needed > 0) text << "  warning: " << cable.DepthWarning() << "\n";
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
@@ -93,6 +109,21 @@ std::string Summary::ToJson() const {
          << ", \"amplitude_max\": " << JsonNumber(cable.amplitude_max)
          << ", \"curvature_max\": " << JsonNumber(cable.curvature_max)
          << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
+         << ", \"bodies\": " << cable.bodies
+         << ", \"contact_stiffness\": " << JsonNumber(cable.contact_stiffness)
+         << ", \"penetration_max\": " << JsonNumber(cable.penetration_max)
+         << ", \"penetration_share_of_radius\": "
+         << JsonNumber(cable.radius > 0 ? cable.penetration_max / cable.radius : 0)
+         << ", \"penetration_body\": "
+         << (cable.penetration_body.empty() ? "null" : JsonString(cable.penetration_body))
+         << ", \"penetration_s\": "
+         << (cable.penetration_body.empty() ? "null" : JsonNumber(cable.penetration_s))
+         << ", \"penetration_time\": "
+         << (cable.penetration_body.empty()
+                 ? "null"
+                 : JsonNumber(1e-9 * static_cast<double>(cable.penetration_time)))
+         << ", \"contact_stiffness_needed\": "
+         << (cable.stiffness_needed > 0 ? JsonNumber(cable.stiffness_needed) : "null")
          << ", \"contact_force_max\": " << JsonNumber(cable.contact_force_max)
          << ", \"tension_max\": " << JsonNumber(cable.tension_max) << JsonClamps(cable.clamps)
          << ", \"dissipated\": " << JsonNumber(cable.dissipated)

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/ros/markers.h"
 #include "cosserat_cable/ros/telemetry.h"
 #include "diagnostics.h"
@@ -22,6 +23,9 @@ CableEngine::SwayingCable::SwayingCable(const CableModel& model, std::vector<con
       clamps_(model.name, model.length, model.diameter) {
   surroundings_.obstacles.resize(frames_.obstacles.size());
   summary_.name = model.name;
+  summary_.bodies = frames_.obstacles.size();
+  summary_.radius = 0.5 * model.diameter;
+  summary_.contact_stiffness = model.contact.stiffness;
 }
 
 diagnostic_msgs::DiagnosticStatus CableEngine::SwayingCable::Diagnostics() const {
@@ -96,9 +100,24 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
 
 void CableEngine::SwayingCable::Record(const Instant& now) {
   const Eigen::Vector3d apex_W = PositionAt(simulation_, model().apex_s);
+  JudgeDepth(now.time);
   history_.Add(now.time, options_.amplitude_frame == AmplitudeFrame::kWorld
                              ? apex_W
                              : now.frames[frames_.reference].X.Inverse() * apex_W);
+}
+
+// Said once, when it is first too deep; the summary has the deepest.
+void CableEngine::SwayingCable::JudgeDepth(std::int64_t time) {
+  const ContactPoint deepest = simulation_.DeepestContact();
+  if (deepest.obstacle < 0 || deepest.penetration <= summary_.penetration_max) return;
+  const bool was_too_deep = summary_.stiffness_needed > 0;
+  summary_.penetration_max = deepest.penetration;
+  summary_.penetration_time = time;
+  summary_.penetration_s = deepest.s;
+  summary_.penetration_body = frames_.obstacle_names[static_cast<std::size_t>(deepest.obstacle)];
+  summary_.stiffness_needed = SufficientContactStiffness(model(), deepest.penetration);
+  if (summary_.stiffness_needed > 0 && !was_too_deep)
+    news_.push_back("cable '" + model().name + "' " + summary_.DepthWarning());
 }
 
 void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world) {
@@ -130,6 +149,7 @@ bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
       MakeTelemetry(simulation_.ReportForces(), now.frames[frames_.reference], rest_, now.time);
   message.header.frame_id = WholePrefix(options_.links.tf_prefix) + model().reference;
   message.amplitude = history_.PeakToPeak();
+  message.bodies = static_cast<std::uint32_t>(frames_.obstacles.size());
   message.held = now.in_gap[frames_.a] || now.in_gap[frames_.b];
   CablePosture posture = simulation_.posture();
   const bool finite = std::all_of(posture.nodes.begin(), posture.nodes.end(),

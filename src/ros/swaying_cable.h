@@ -40,6 +40,7 @@ class CableEngine::SwayingCable {
   struct Frames {
     std::size_t reference, a, b;
     std::vector<std::size_t> obstacles;
+    std::vector<std::string> obstacle_names;  // likewise
   };
 
   /// `options` outlive this. `index`: by which the engine knows it.
@@ -72,6 +73,7 @@ class CableEngine::SwayingCable {
   void Surround(const Instant& now);
   void JudgeClamps(const Instant& now);
   void Record(const Instant& now);
+  void JudgeDepth(std::int64_t time);
   void Fail(const std::string& message, std::int64_t time, const std::string& world);
   bool TellTelemetry(const Instant& now);
   visualization_msgs::MarkerArray InRecordedFrame(visualization_msgs::MarkerArray markers) const;

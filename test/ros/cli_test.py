@@ -336,6 +336,102 @@ cables:
             file.write('v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n')
         self.refused('nan.obj', **self.vehicle_with_mesh('file://' + self.path('nan.obj')))
 
+    ROCKER = ('<robot name="rover">\n<link name="body"/>\n<link name="rocker">\n%s</link>\n'
+              '<joint name="j" type="prismatic"><parent link="body"/><child link="rocker"/>\n'
+              '<axis xyz="0 0 1"/><limit effort="1" velocity="1"/></joint></robot>\n')
+    LOOM = ('format: 1\ncables:\n  - {name: loom, length: 0.6, diameter: 0.01, '
+            'mass_per_length: 0.1, EI: 0.01, GJ: 0.01, eta_EI: 1.0e-4,\n'
+            '     a: {link: body, pose: [-0.2, 0, 0.2, 0, 0.70710678, 0, 0.70710678]},\n'
+            '     b: {link: body, pose: [0.2, 0, 0.2, 0, 0.70710678, 0, 0.70710678]},\n'
+            '     %s}\n')
+
+    def rocking(self, geometry, avoid):
+        """Arguments of a replay: a loom over a link that comes up by 10 mm."""
+        with open(self.path('rover.urdf'), 'w') as file:
+            file.write(self.ROCKER % geometry)
+        with open(self.path('loom.yaml'), 'w') as file:
+            file.write(self.LOOM % avoid)
+        if not os.path.exists(self.path('rock.bag')):
+            with rosbag.Bag(self.path('rock.bag'), 'w') as bag:
+                for i in range(101):
+                    stamp = rospy.Time.from_sec(10 + 0.01 * i)
+                    message = JointState(name=['j'], position=[-0.10 + 1e-6 * i * i])
+                    message.header.stamp = stamp
+                    bag.write('/joint_states', message, stamp)
+        return {'vehicle': self.path('rover.urdf'), 'cables': self.path('loom.yaml'),
+                'bag': self.path('rock.bag')}
+
+    def replay_rocking(self, inputs):
+        output = os.path.join(self.output_folder, 'out.bag')
+        json_path = self.path('out.json')
+        code, text = run('cable_replay', '--vehicle', inputs['vehicle'], '--cables',
+                         inputs['cables'], '--bag', inputs['bag'], '--output', output, '--json',
+                         json_path)
+        self.assertEqual(code, 0, text)
+        with open(json_path) as file:
+            loom = json.load(file)['cables']['loom']
+        with rosbag.Bag(output) as bag:
+            bodies = {m.bodies for _, m, _ in bag.read_messages('/cables/loom/apex')}
+        return text, loom, bodies
+
+    BOX = '<%s><geometry><box size="0.2 2 0.2"/></geometry></%s>\n'
+
+    def test_avoided_link_without_collision(self):
+        visual = self.BOX % ('visual', 'visual')
+        inputs = self.rocking(visual, 'avoid: [rocker]')
+        self.refused("loom.yaml:6: cables[0].avoid[0]: got 'rocker', a link without <collision>",
+                     'rover.urdf:3', '{link: rocker, use_visual: true}', **inputs)
+        self.assertEqual(run('cable_modes', inputs['cables'], '--vehicle', inputs['vehicle'])[0], 2)
+        self.refused("got 'rocker', a link without <collision>", 'take the link out of `avoid`',
+                     **self.rocking('', 'avoid: [rocker]'))
+        self.refused("got 'rocker', a link without <visual>", 'leave out use_visual',
+                     **self.rocking(self.BOX % ('collision', 'collision'),
+                                    'avoid: [rocker], use_visual: true'))
+
+    def test_visual_geometry_instead_of_collision(self):
+        touched = []
+        for kind, avoid in (('collision', 'avoid: [rocker]'),
+                            ('visual', 'avoid: [rocker], use_visual: true'),
+                            ('visual', 'avoid: [{link: rocker, use_visual: true}]')):
+            text, loom, bodies = self.replay_rocking(self.rocking(self.BOX % (kind, kind), avoid))
+            self.assertEqual(bodies, {1})
+            self.assertEqual(loom['bodies'], 1)
+            touched.append(loom['clearance_min'])
+        self.assertIsNotNone(touched[0])
+        self.assertEqual(touched[1:], touched[:1] * 2)
+
+    def test_placeholder_without_extent(self):
+        geometry = '<collision><geometry><sphere radius="0"/></geometry></collision>\n'
+        inputs = self.rocking(geometry, 'avoid: [rocker]')
+        note = ("rover.urdf:4: link[rocker].collision.sphere.radius: got '0': a geometry with a "
+                'size of zero touches nothing')
+        code, text = run('cable_check', '--vehicle', inputs['vehicle'], '--cables',
+                         inputs['cables'])
+        self.assertEqual(code, 0, text)
+        self.assertIn(note, text)
+        self.assertIn('avoids nothing: no clearance is measured', text)
+        text, loom, bodies = self.replay_rocking(inputs)
+        self.assertIn(note, text)
+        self.assertIn('no body', text)
+        self.assertEqual(loom['bodies'], 0)
+        self.assertEqual(bodies, {0})
+
+    def test_depth_is_judged_against_the_radius(self):
+        geometry = self.BOX % ('collision', 'collision')
+        soft = 'avoid: [rocker], contact: {stiffness: 5}'
+        text, loom, _ = self.replay_rocking(self.rocking(geometry, soft))
+        self.assertGreater(loom['penetration_share_of_radius'], 0.05)
+        self.assertIn("sinks", text)
+        self.assertIn("into 'rocker'", text)
+        needed = loom['contact_stiffness_needed']
+        self.assertIn('contact: {stiffness: %.1e}' % needed, text)
+        for contact in ('', ', contact: {stiffness: %g}' % needed):
+            text, loom, _ = self.replay_rocking(self.rocking(geometry, 'avoid: [rocker]' + contact))
+            self.assertLess(loom['penetration_share_of_radius'], 0.05)
+            self.assertGreater(loom['penetration_max'], 0)
+            self.assertIsNone(loom['contact_stiffness_needed'])
+            self.assertNotIn('sinks', text)
+
     # ---- Recordings.
 
     def test_missing_bag(self):

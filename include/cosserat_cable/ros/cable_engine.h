@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cosserat_cable/cable/cable_fleet.h"
@@ -45,11 +46,14 @@ struct EngineOptions {
   std::vector<std::string> Check() const;
 };
 
-/// Collision geometry by link.
-using BodyMap = std::map<std::string, std::unique_ptr<Body>>;
+/// Geometry by link, and by whether it is the visual instead of the collision geometry.
+using BodyMap = std::map<std::pair<std::string, bool>, std::unique_ptr<Body>>;
 
-/// The bodies of all links with collision shapes. `threads`: see EngineOptions.
+/// The bodies of all links with shapes. `threads`: see EngineOptions.
 BodyMap MakeBodies(const VehicleModel& vehicle, int threads);
+
+/// What `cable` is kept clear of at a link of its `avoid`; null where that has no extent.
+const Body* FindBody(const BodyMap& bodies, const CableModel& cable, const std::string& link);
 
 /// Links whose motion the cables need: clamps, references, and those to avoid; each once.
 std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables);

@@ -44,7 +44,7 @@ struct Inputs {
   BodyMap bodies;  ///< of the links that cables avoid
   std::unique_ptr<BagReader> bags;
   std::optional<BagSurvey> survey;  ///< where the bags could be followed
-  int triangles = 0;                ///< of all collision meshes that cables avoid
+  int triangles = 0;                ///< of all meshes that cables avoid
 };
 
 /// The options that name topics, frames or gravity, as they were given: " --gravity 0,0,9.81".
