@@ -44,7 +44,9 @@ double DefaultContactStiffness(const CableModel& cable) {
 double SufficientContactStiffness(const CableModel& cable, double penetration) {
   const double ratio = penetration / (kDeepestShareOfRadius * 0.5 * cable.diameter);
   if (!(ratio > 1)) return 0;
-  return std::min(kStiffest, RoundUpToTwoDigits(kMargin * ratio * ratio * cable.contact.stiffness));
+  double needed = RoundUpToTwoDigits(kMargin * ratio * ratio * cable.contact.stiffness);
+  if (penetration > 0.5 * cable.diameter) needed = std::max(needed, DefaultContactStiffness(cable));
+  return std::min(kStiffest, needed);
 }
 
 }  // namespace cosserat_cable

@@ -48,6 +48,9 @@ TEST(ContactStiffness, TellsWhatWouldDo) {
   EXPECT_EQ(SufficientContactStiffness(hose, 0.00074), 0);
   // Twice as deep as allowed: 1.2 * 2^2 * 2e4.
   EXPECT_DOUBLE_EQ(SufficientContactStiffness(hose, 0.0015), 9.6e4);
+  // Went through the body: 1.2 * (0.02 / 0.00075)^2 * 10 = 8.6e3 would stop nothing.
+  hose.contact.stiffness = 10;
+  EXPECT_EQ(SufficientContactStiffness(hose, 0.02), DefaultContactStiffness(hose));
 }
 
 // How deep a block sinks into the hose that it lifts 80 mm above the line between its clamps.

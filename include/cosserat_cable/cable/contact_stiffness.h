@@ -27,7 +27,9 @@ double DefaultContactStiffness(const CableModel& cable);
 
 /// A stiffness per contact point [N/m], two digits, with which a cable that was `penetration` [m]
 /// deep would stay within kDeepestShareOfRadius. The depth goes with 1/k under a given force, and
-/// with 1/sqrt(k) in an impact: the larger of both counts. 0 where the depth is within the share.
+/// with 1/sqrt(k) in an impact: the larger of both counts. One that was deeper than its radius went
+/// through the body rather than being pushed, and its depth says little of the force: it needs
+/// DefaultContactStiffness at least. 0 where the depth is within the share.
 double SufficientContactStiffness(const CableModel& cable, double penetration);
 
 }  // namespace cosserat_cable
