@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "cosserat_cable/input/gravity.h"
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/ros/inputs.h"
 #include "json.h"
 
@@ -16,6 +17,8 @@ std::size_t CountBodies(const Inputs& inputs, const CableModel& cable) {
   return count;
 }
 
+}  // namespace
+
 std::vector<std::string> Notes(const Inputs& inputs) {
   std::vector<std::string> notes;
   for (const Problem& note : inputs.vehicle.notes.all()) notes.push_back(note.ToString());
@@ -23,8 +26,6 @@ std::vector<std::string> Notes(const Inputs& inputs) {
     notes.insert(notes.end(), inputs.survey->notes.begin(), inputs.survey->notes.end());
   return notes;
 }
-
-}  // namespace
 
 std::string SharedOptionsText(const EngineOptions& options) {
   const MotionTopics usual, &topics = options.links.topics;
@@ -34,6 +35,7 @@ std::string SharedOptionsText(const EngineOptions& options) {
   if (topics.tf != usual.tf) text += " --tf " + topics.tf;
   if (!options.links.tf_prefix.empty()) text += " --tf-prefix " + options.links.tf_prefix;
   if (topics.use_record_times) text += " --use-record-times";
+  if (options.links.smooth > 0) text += " --smooth " + FormatRounded(options.links.smooth, 6);
   return text;
 }
 
@@ -63,9 +65,10 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
     }
     text << "\n";
   }
-  for (const Problem& note : inputs.vehicle.notes.all())
-    text << "note: " << note.ToString() << "\n";
-  if (!inputs.survey) return text.str();
+  if (!inputs.survey) {
+    for (const std::string& note : Notes(inputs)) text << "note: " << note << "\n";
+    return text.str();
+  }
   const BagSurvey& survey = *inputs.survey;
   text << "inertial frame '" << survey.world << "'";
   if (!survey.topmost.empty())
@@ -95,7 +98,7 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
   for (const Finding& finding : survey.findings) {
     text << "warning: " << finding.ToString() << "\n";
   }
-  for (const std::string& note : survey.notes) text << "note: " << note << "\n";
+  for (const std::string& note : Notes(inputs)) text << "note: " << note << "\n";
   return text.str();
 }
 

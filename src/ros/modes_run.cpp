@@ -165,6 +165,7 @@ void RefuseRecordingOptions(const ModesOptions& options, Problems* problems) {
   refuse(!options.engine.links.tf_prefix.empty(), "tf-prefix");
   refuse(!options.engine.links.world_frame.empty(), "world-frame");
   refuse(!options.engine.links.held_joints.empty(), "hold");
+  refuse(options.engine.links.smooth != 0, "smooth");
 }
 
 Scene OnVehicle(const ModesOptions& options, Problems* problems) {

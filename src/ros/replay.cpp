@@ -136,9 +136,6 @@ ExitCode RunReplay(ReplayOptions options) {
               << inputs.survey->topmost << "' above it: a localisation's corrections move it\n";
   }
 
-  for (const Problem& note : inputs.vehicle.notes.all())
-    std::cerr << "note: " << note.ToString() << "\n";
-
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   ExitCode code = kExitDone;
   try {
@@ -169,7 +166,7 @@ ExitCode RunReplay(ReplayOptions options) {
   }
 
   Summary summary = engine.MakeSummary();
-  summary.notes = inputs.survey->notes;
+  summary.notes = Notes(inputs);
   summary.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.peak_memory = PeakMemory();

@@ -53,6 +53,9 @@ std::string SharedOptionsText(const EngineOptions& options);
 /// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems);
 
+/// What the user may want to set or draw otherwise, of vehicle and recording.
+std::vector<std::string> Notes(const Inputs& inputs);
+
 /// For `cable_check`: cables, bags, and which frame is driven by what.
 std::string Describe(const Inputs& inputs, const EngineOptions& options);
 std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
