@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "cosserat_cable/cable/contact_stiffness.h"
@@ -106,6 +107,16 @@ void CableEngine::SwayingCable::Record(const Instant& now) {
                              : now.frames[frames_.reference].X.Inverse() * apex_W);
 }
 
+// How much deeper it will get, and so which stiffness would do, is not known yet.
+std::string CableEngine::SwayingCable::TooDeep() const {
+  char text[120];
+  std::snprintf(text, sizeof text, "sinks by more than %.0f %% of its radius into '",
+                100 * kDeepestShareOfRadius);
+  return "cable '" + model().name + "' " + text + summary_.penetration_body + "', from " +
+         StampText(summary_.penetration_time) +
+         " on: its contact forces are too small; the summary says which stiffness would do";
+}
+
 // Said once, when it is first too deep; the summary has the deepest.
 void CableEngine::SwayingCable::JudgeDepth(std::int64_t time) {
   const ContactPoint deepest = simulation_.DeepestContact();
@@ -116,8 +127,7 @@ void CableEngine::SwayingCable::JudgeDepth(std::int64_t time) {
   summary_.penetration_s = deepest.s;
   summary_.penetration_body = frames_.obstacle_names[static_cast<std::size_t>(deepest.obstacle)];
   summary_.stiffness_needed = SufficientContactStiffness(model(), deepest.penetration);
-  if (summary_.stiffness_needed > 0 && !was_too_deep)
-    news_.push_back("cable '" + model().name + "' " + summary_.DepthWarning());
+  if (summary_.stiffness_needed > 0 && !was_too_deep) news_.push_back(TooDeep());
 }
 
 void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world) {
@@ -160,6 +170,10 @@ bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
   summary_.contact_force_max = std::max(summary_.contact_force_max, message.contact_force);
   summary_.tension_max = std::max(summary_.tension_max, message.tension);
   summary_.amplitude_max = std::max(summary_.amplitude_max, message.amplitude);
+  // Nearly that of the whole cable: clamps a go where their vehicle goes.
+  summary_.kinetic_max =
+      std::max(summary_.kinetic_max, 0.5 * model().mass_per_length * model().length *
+                                         now.frames[frames_.a].v.squaredNorm());
   summary_.dissipated = message.dissipated;
   summary_.energy_residual = message.energy_residual;
   told_.push_back({now.time, index_, std::move(message), std::move(posture)});

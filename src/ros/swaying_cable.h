@@ -74,6 +74,7 @@ class CableEngine::SwayingCable {
   void JudgeClamps(const Instant& now);
   void Record(const Instant& now);
   void JudgeDepth(std::int64_t time);
+  std::string TooDeep() const;
   void Fail(const std::string& message, std::int64_t time, const std::string& world);
   bool TellTelemetry(const Instant& now);
   visualization_msgs::MarkerArray InRecordedFrame(visualization_msgs::MarkerArray markers) const;

@@ -25,6 +25,7 @@ struct CableSummary {
   double amplitude_max = 0;           ///< peak to peak over the window [m]
   double dissipated = 0;              ///< since the cable last settled [J]
   double energy_residual = 0;         ///< what the energy balance lacks [J]
+  double kinetic_max = 0;             ///< kinetic energy, of the cable's travel with its clamps [J]
   std::size_t bodies = 0;             ///< that it is kept clear of; 0: no clearance is measured
   double radius = 0;                  ///< [m]
   double contact_stiffness = 0;       ///< [N/m]
