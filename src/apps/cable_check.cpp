@@ -15,6 +15,8 @@ int main(int argc, char** argv) {
   int code = 0;
   if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
 
+  paths.follow_clamps = true;
+
   cosserat_cable::Problems problems;
   engine.ApplyGravity(&problems);
   const cosserat_cable::Inputs inputs = cosserat_cable::LoadInputs(paths, engine, &problems);
@@ -27,6 +29,10 @@ int main(int argc, char** argv) {
     std::cerr << problems.ToString();
     return cosserat_cable::kExitBadInput;
   }
-  std::cout << cosserat_cable::Describe(inputs, engine) << "ok\n";
+  const std::size_t findings = inputs.survey ? inputs.survey->findings.size() : 0;
+  std::cout << cosserat_cable::Describe(inputs, engine) << "ok";
+  if (findings > 0)
+    std::cout << ", but for " << findings << (findings == 1 ? " warning" : " warnings");
+  std::cout << "\n";
   return cosserat_cable::kExitDone;
 }

@@ -12,8 +12,9 @@ inline void AddSharedArguments(CLI::App* app, EngineOptions* engine) {
       "--gravity", [engine](const std::string& text) { engine->gravity = text; },
       "\"X,Y,Z\" in the inertial frame [m/s^2]; default: 0,0,-9.81; 0,0,9.81 where z "
       "points down");
-  app->add_option("--world-frame", engine->links.world_frame,
-                  "inertial frame; default: the root of the recorded tree above the vehicle");
+  app->add_option(
+      "--world-frame", engine->links.world_frame,
+      "inertial frame; default: the topmost recorded one that no localisation corrects");
   app->add_option("--joint-states", engine->links.topics.joint_states, "topic of joint states")
       ->capture_default_str();
   app->add_option("--tf", engine->links.topics.tf,
@@ -30,6 +31,9 @@ inline void AddSharedArguments(CLI::App* app, EngineOptions* engine) {
                   "of their limits that is nearest to it");
   app->add_option("--max-gap", engine->links.max_gap,
                   "samples farther apart are not interpolated: the pose is held [s]")
+      ->capture_default_str();
+  app->add_option("--smooth", engine->links.smooth,
+                  "low-pass of the links' motion, without delay [Hz]; 0: none")
       ->capture_default_str();
 }
 

@@ -3,6 +3,7 @@
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/cable/cable_keys.h"
 #include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/map_reader.h"
 
 namespace cosserat_cable {
@@ -89,6 +90,10 @@ class CableReader {
     if (keys.avoid.value) {
       for (const LinkKey& link : *keys.avoid.value) marks.avoid.push_back(link.mark);
     }
+    // Now that the clamps are known. A type without a stiffness leaves it to each of its cables.
+    const bool stiffness_given = keys.contact.value && keys.contact.value->stiffness;
+    if (model.length > 0 && !stiffness_given)
+      model.contact.stiffness = DefaultContactStiffness(model);
     if (model.length > 0 && !model.a.link.empty() && model.a.link == model.b.link) {
       CheckClampDistance(model, marks, (model.a.X_LC.p - model.b.X_LC.p).norm(), problems_);
     }

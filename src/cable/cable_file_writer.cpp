@@ -14,6 +14,17 @@ std::string Quoted(const std::string& text) {
   return quoted + "'";
 }
 
+// Links to avoid, as the file may say them.
+std::string AvoidList(const CableModel& cable) {
+  std::string list;
+  for (const std::string& link : cable.avoid) {
+    const bool visual = cable.avoid_visual.count(link) > 0;
+    list += (list.empty() ? "" : ", ") +
+            (visual ? "{link: " + Quoted(link) + ", use_visual: true}" : Quoted(link));
+  }
+  return "[" + list + "]";
+}
+
 std::string QuotedList(const std::vector<std::string>& texts) {
   std::string list;
   for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + Quoted(text);
@@ -87,7 +98,7 @@ std::string WriteCable(const CableModel& cable, const std::string& indent) {
   out.Line("uncertain", QuotedList(cable.uncertain));
   out.Line("apex", "{s: " + FormatNumber(cable.apex_s) + "}");
   out.Line("elements", std::to_string(cable.elements));
-  out.Line("avoid", QuotedList(cable.avoid));
+  out.Line("avoid", AvoidList(cable));
   out.Line("contact", "{stiffness: " + FormatNumber(cable.contact.stiffness) +
                           ", smoothing: " + FormatNumber(cable.contact.smoothing) +
                           ", damping: " + FormatNumber(cable.contact.damping) + "}");

@@ -3,6 +3,7 @@
 
 #include "cable_key_specs.h"
 #include "cosserat_cable/cable/cable_keys.h"
+#include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/number_text.h"
 #include "extensions.h"
 
@@ -138,6 +139,22 @@ void FillDamping(const CableKeys& keys, CableModel* model) {
   model->eta_GA2 = ValueOf(shear[1], 2 * std::sqrt(model->rhoI() * model->GA2));
 }
 
+void FillAvoid(const CableKeys& keys, CableModel* model) {
+  if (!keys.avoid.value) return;
+  for (const LinkKey& link : *keys.avoid.value) {
+    model->avoid.push_back(link.name);
+    if (link.use_visual.value_or(keys.use_visual.value.value_or(false)))
+      model->avoid_visual.insert(link.name);
+  }
+}
+
+void FillContact(const CableKeys& keys, CableModel* model) {
+  const ContactKey key = keys.contact.value.value_or(ContactKey());
+  model->contact.stiffness = key.stiffness.value_or(DefaultContactStiffness(*model));
+  model->contact.smoothing = key.smoothing;
+  model->contact.damping = key.damping;
+}
+
 void FillExtensions(const CableKeys& keys, CableModel* model) {
   if (!keys.extensions.value) return;
   for (const ExtensionKey& key : *keys.extensions.value) model->extensions.push_back(key.extension);
@@ -179,10 +196,8 @@ CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problem
   }
   model.apex_s = keys.apex_s.value.value_or(model.length / 2);
   model.elements = keys.elements.value.value_or(model.elements);
-  if (keys.avoid.value) {
-    for (const LinkKey& link : *keys.avoid.value) model.avoid.push_back(link.name);
-  }
-  model.contact = keys.contact.value.value_or(model.contact);
+  FillAvoid(keys, &model);
+  FillContact(keys, &model);
   return model;
 }
 

@@ -72,16 +72,37 @@ CableKey<std::vector<UncertainKey>> ReadUncertain(const YamlValue& value) {
   return {keys, value.mark()};
 }
 
+// A link's name, or a map with what else is to be said of it.
+std::optional<LinkKey> ReadAvoided(const YamlValue& item) {
+  const std::string expected = "the name of a link";
+  if (!item.IsMap()) {
+    const std::optional<std::string> name = item.Text(expected);
+    if (!name) return std::nullopt;
+    return LinkKey{*name, item.mark(), std::nullopt};
+  }
+  MapReader map(item, "a link {link: ..., use_visual: ...}");
+  const YamlValue link = map.Required("link");
+  const std::optional<std::string> name = link.Text(expected);
+  const std::optional<bool> use_visual = map.Optional("use_visual").Flag();
+  if (!name) return std::nullopt;
+  return LinkKey{*name, link.mark(), use_visual};
+}
+
+CableKey<bool> ReadUseVisual(const YamlValue& value) {
+  if (!value.given()) return {};
+  return {value.Flag(), value.mark()};
+}
+
 CableKey<std::vector<LinkKey>> ReadAvoid(const YamlValue& value) {
   if (!value.given()) return {};
   std::vector<LinkKey> links;
   std::set<std::string> names;
   for (const YamlValue& item : value.Items("a list of links")) {
-    const std::optional<std::string> link = item.Text("the name of a link");
+    std::optional<LinkKey> link = ReadAvoided(item);
     if (!link) continue;
-    if (!names.insert(*link).second)
-      item.Report("got " + item.Shown() + " twice, expected it once");
-    links.push_back({*link, item.mark()});
+    if (!names.insert(link->name).second)
+      item.Report("got '" + link->name + "' twice, expected it once");
+    links.push_back(std::move(*link));
   }
   return {links, value.mark()};
 }
@@ -93,10 +114,10 @@ CableKey<double> ReadApex(const YamlValue& value) {
   return {s.Number(ArcLengthSpec()), s.mark()};
 }
 
-CableKey<ContactLaw> ReadContact(const YamlValue& value) {
+CableKey<ContactKey> ReadContact(const YamlValue& value) {
   MapReader map(value, "a law {stiffness: ..., smoothing: ..., damping: ...}");
-  ContactLaw law;
-  law.stiffness = map.Optional("stiffness").Number(ContactStiffnessSpec()).value_or(law.stiffness);
+  ContactKey law;
+  law.stiffness = map.Optional("stiffness").Number(ContactStiffnessSpec());
   law.smoothing = map.Optional("smoothing").Number(ContactSmoothingSpec()).value_or(law.smoothing);
   law.damping = map.Optional("damping").Number(ContactDampingSpec()).value_or(law.damping);
   if (!value.given()) return {};
@@ -144,6 +165,7 @@ CableKeys ReadCableKeys(MapReader* map) {
     keys.elements = {elements.Integer(kFewestElements, kMostElements), elements.mark()};
   }
   keys.avoid = ReadAvoid(map->Optional("avoid"));
+  keys.use_visual = ReadUseVisual(map->Optional("use_visual"));
   keys.contact = ReadContact(map->Optional("contact"));
   keys.extensions = ReadExtensions(map->Optional("extensions"));
   return keys;
@@ -166,6 +188,7 @@ void CableKeys::FillFrom(const CableKeys& other) {
   Fill(&apex_s, other.apex_s);
   Fill(&elements, other.elements);
   Fill(&avoid, other.avoid);
+  Fill(&use_visual, other.use_visual);
   Fill(&contact, other.contact);
   Fill(&extensions, other.extensions);
 }

@@ -124,6 +124,14 @@ std::vector<ContactPoint> CableSimulation::contacts() const {
   return impl_->contact.Points(impl_->rod);
 }
 
+ContactPoint CableSimulation::DeepestContact() const {
+  ContactPoint deepest;
+  if (impl_->contact.empty()) return deepest;
+  for (const ContactPoint& point : contacts())
+    if (deepest.obstacle < 0 || point.penetration > deepest.penetration) deepest = point;
+  return deepest;
+}
+
 std::vector<rod::Mode> CableSimulation::FindModes(int count) const {
   return rod::FindModes(impl_->rod, count, impl_->load());
 }

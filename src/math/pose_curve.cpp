@@ -103,10 +103,13 @@ bool PoseCurve::Append(double time, const Pose& X_AB) {
   knot.gap_before = gap;
   knot.hole_before = gap || (settled_ && period > kHole * median_period_);
   const bool first = empty();
+  const bool is_counted =
+      !first && gap_rule_.IsGap(period, max_gap_, knots_.back().motion.X, knot.motion.X);
+  knot.still_before = gap && !is_counted;
   knots_.push_back(knot);
 
   if (gap) {
-    ++gap_count_;
+    if (is_counted) ++gap_count_;
     start_ = size() - 1;
     periods_before_start_ = periods_.size();
   } else if (!first) {
@@ -297,7 +300,7 @@ Motion PoseCurve::Follow(double time) {
 bool PoseCurve::InGap(double time) const {
   if (size() < 2 || time <= begin_time() || time >= end_time()) return false;
   const int i = IntervalAt(time);
-  return knots_[i + 1].gap_before && time > knots_[i].time;
+  return knots_[i + 1].gap_before && !knots_[i + 1].still_before && time > knots_[i].time;
 }
 
 void PoseCurve::DropBefore(double time) {

@@ -26,6 +26,7 @@ void CheckSpecimen(CableKeys keys, const SourceMark& cable, Problems* problems) 
 
 void RefuseVehicleKeys(const CableKeys& keys, Problems* problems) {
   Refuse(keys.avoid, "has no links", problems);
+  Refuse(keys.use_visual, "has no links", problems);
   Refuse(keys.contact, "has no bodies to touch", problems);
   Refuse(keys.apex_s, "has channels instead", problems);
 }

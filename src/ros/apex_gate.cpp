@@ -61,6 +61,13 @@ class Judgement {
   void AtMost(const char* what, double value, double bound, double scale, const char* unit) {
     Compare(what, value, bound, value <= bound, "at most", scale, unit);
   }
+  /// A bound on what is only there where the cable can touch something.
+  void RequireBodies(const char* what, double bound) {
+    if (!std::isnan(bound))
+      Violate(std::string(what) +
+              " cannot be judged: the cable has nothing to be clear of. Its `avoid` names no link "
+              "whose geometry has an extent (or the telemetry is older than its field `bodies`)");
+  }
   void Violate(const std::string& what) { verdict_.violations.push_back(Prefix() + what); }
   const ApexVerdict& verdict() const { return verdict_; }
 
@@ -79,6 +86,17 @@ class Judgement {
   const ApexBounds& bounds_;
   ApexVerdict verdict_;
 };
+
+// What a window may lack at its end: a live run stops some samples before its recording does.
+constexpr double kLateEnd = 1, kLateShare = 0.1;  // [s], of the window
+
+bool AnyBound(const ApexBounds& b) {
+  for (const double bound :
+       {b.peak_to_peak_min, b.peak_to_peak_max, b.min_clearance, b.max_penetration, b.max_curvature,
+        b.max_contact_force, b.max_interval, b.max_rms_difference})
+    if (!std::isnan(bound)) return true;
+  return false;
+}
 
 struct Difference {
   double rms = 0;             // distance of positions with equal stamps [m]
@@ -102,6 +120,18 @@ Difference Compare(const std::vector<ApexTelemetry>& messages,
   const auto matched = static_cast<double>(messages.size() - difference.unmatched);
   difference.rms = std::sqrt(sum / std::max(1.0, matched));
   return difference;
+}
+
+/// A message of an earlier version: fields are only ever added at the end, and are zero here.
+ApexTelemetry ReadOlder(const rosbag::MessageInstance& instance) {
+  constexpr std::size_t kRoomForFields = 1024;
+  std::vector<std::uint8_t> bytes(instance.size() + kRoomForFields, 0);
+  ros::serialization::OStream out(bytes.data(), instance.size());
+  instance.write(out);
+  ros::serialization::IStream in(bytes.data(), static_cast<std::uint32_t>(bytes.size()));
+  ApexTelemetry message;
+  ros::serialization::deserialize(in, message);
+  return message;
 }
 
 }  // namespace
@@ -136,6 +166,17 @@ ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
     judgement.Violate("fewer than two messages in the window");
     return judgement.verdict();
   }
+  if (!AnyBound(bounds)) judgement.Violate("no bound is given: nothing is judged");
+  const double last = (window.back().header.stamp - messages.front().header.stamp).toSec();
+  const double allowed = std::max(kLateEnd, kLateShare * (bounds.end - bounds.start));
+  if (std::isfinite(bounds.end) && bounds.end - last > allowed) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "the telemetry ends at %.3f s, long before the window does at %.3f s: did the "
+                  "cable fail?",
+                  last, bounds.end);
+    judgement.Violate(text);
+  }
   double clearance = std::numeric_limits<double>::infinity();
   double curvature = 0, force = 0;
   // A run that ends within the window leaves an interval, too.
@@ -155,6 +196,15 @@ ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
   const double swing = PeakToPeak(window, bounds.axis);
   judgement.AtLeast("peak to peak", swing, bounds.peak_to_peak_min, 1e3, "mm");
   judgement.AtMost("peak to peak", swing, bounds.peak_to_peak_max, 1e3, "mm");
+  // A cable that avoids nothing is as far from it all the time as one that nothing comes near.
+  const bool nothing_to_touch =
+      std::isinf(clearance) && std::any_of(window.begin(), window.end(),
+                                           [](const ApexTelemetry& m) { return m.bodies == 0; });
+  if (nothing_to_touch) {
+    judgement.RequireBodies("clearance", bounds.min_clearance);
+    judgement.RequireBodies("penetration", bounds.max_penetration);
+    judgement.RequireBodies("contact force", bounds.max_contact_force);
+  }
   judgement.AtLeast("clearance", clearance, bounds.min_clearance, 1e3, "mm");
   judgement.AtMost("penetration", std::max(0.0, -clearance), bounds.max_penetration, 1e3, "mm");
   judgement.AtMost("curvature", curvature, bounds.max_curvature, 1, "1/m");
@@ -180,7 +230,11 @@ std::vector<ApexTelemetry> ReadApexTelemetry(const std::string& path, const std:
     rosbag::View view(bag, rosbag::TopicQuery("/cables/" + cable + "/apex"));
     for (const rosbag::MessageInstance& instance : view) {
       const auto message = instance.instantiate<ApexTelemetry>();
-      if (message) messages.push_back(*message);
+      if (message) {
+        messages.push_back(*message);
+      } else if (instance.getDataType() == ros::message_traits::datatype<ApexTelemetry>()) {
+        messages.push_back(ReadOlder(instance));
+      }
     }
     if (messages.empty()) problems->Add(path, "no telemetry of cable '" + cable + "'");
   } catch (const rosbag::BagException& error) {

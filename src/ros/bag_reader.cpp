@@ -82,6 +82,13 @@ void CheckTopics(const std::vector<std::string>& paths, const TopicContents& con
 
 }  // namespace
 
+const std::string& BagMessage::publisher() const {
+  static const std::string kUnknown;
+  if (!connection) return kUnknown;
+  const auto found = connection->find("callerid");
+  return found == connection->end() ? kUnknown : found->second;
+}
+
 BagReader::BagReader(const std::vector<std::string>& paths, Problems* problems, MotionTopics topics)
     : topics_(std::move(topics)) {
   Problems types;

@@ -75,6 +75,8 @@ std::vector<std::string> EngineOptions::Check() const {
   require(threads >= 0 && threads <= 256, "threads", threads, "0 (one per core) to 256");
   require(links.max_gap > 0 && links.max_gap <= 10, "max_gap", links.max_gap,
           "more than 0 and at most 10 s");
+  require(links.smooth == 0 || (links.smooth >= 0.1 && links.smooth <= 1000), "smooth",
+          links.smooth, "0 (not at all) or 0.1 to 1000 Hz");
   require(markers.curvature_scale >= 0 && std::isfinite(markers.curvature_scale), "curvature_scale",
           markers.curvature_scale, "0 (by diameter) or more 1/m");
   return problems;
@@ -95,15 +97,22 @@ BodyMap MakeBodies(const VehicleModel& vehicle, int threads) {
   oneapi::tbb::task_arena arena(Concurrency(threads));
   arena.execute([&] {
     oneapi::tbb::task_group making;
-    for (const auto& [link, shapes] : vehicle.collision) {
-      if (shapes.empty()) continue;
-      making.run([&store, &shapes = shapes, &body = bodies[link]] {
-        body = std::make_unique<Body>(shapes, &store);
-      });
+    for (const bool visual : {false, true}) {
+      for (const auto& [link, shapes] : visual ? vehicle.visual : vehicle.collision) {
+        if (shapes.empty()) continue;
+        making.run([&store, &shapes = shapes, &body = bodies[{link, visual}]] {
+          body = std::make_unique<Body>(shapes, &store);
+        });
+      }
     }
     making.wait();
   });
   return bodies;
+}
+
+const Body* FindBody(const BodyMap& bodies, const CableModel& cable, const std::string& link) {
+  const auto body = bodies.find({link, cable.avoid_visual.count(link) > 0});
+  return body == bodies.end() ? nullptr : body->second.get();
 }
 
 CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
@@ -119,16 +128,18 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
   for (const CableModel& model : cables) {
     std::vector<const Body*> obstacles;
     std::vector<std::size_t> frames;
+    std::vector<std::string> names;
     for (const std::string& link : model.avoid) {
-      const auto body = bodies.find(link);
-      if (body == bodies.end()) continue;
-      obstacles.push_back(body->second.get());
+      const Body* body = FindBody(bodies, model, link);
+      if (!body) continue;
+      obstacles.push_back(body);
       frames.push_back(FrameIndex(link));
+      names.push_back(link);
     }
     cables_.push_back(std::make_unique<SwayingCable>(
         model, obstacles,
         SwayingCable::Frames{FrameIndex(model.reference), FrameIndex(model.a.link),
-                             FrameIndex(model.b.link), frames},
+                             FrameIndex(model.b.link), frames, names},
         cables_.size(), options_));
   }
   std::vector<CableSimulation*> simulations;
@@ -148,11 +159,14 @@ std::size_t CableEngine::FrameIndex(const std::string& link) const {
   return static_cast<std::size_t>(std::find(all.begin(), all.end(), link) - all.begin());
 }
 
-void CableEngine::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
-  links_.Ingest(message, is_static);
+void CableEngine::Ingest(const tf2_msgs::TFMessage& message, bool is_static,
+                         const std::string& publisher) {
+  links_.Ingest(message, is_static, publisher);
 }
 
-void CableEngine::Ingest(const sensor_msgs::JointState& message) { links_.Ingest(message); }
+void CableEngine::Ingest(const sensor_msgs::JointState& message, const std::string& publisher) {
+  links_.Ingest(message, publisher);
+}
 
 void CableEngine::Finish() {
   links_.Finish();
@@ -322,7 +336,9 @@ void CableEngine::TellDiagnostics() {
   MeasureClearances();
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ToRosTime(now_);
-  message.status.push_back(InputDiagnostics(links_, resets_));
+  const Findings findings = AllFindings();
+  TellFindings(findings);
+  message.status.push_back(InputDiagnostics(links_, resets_, findings, options_.links.smooth));
   AddValue("gravity", GravityText(options_.gravity_W, links_.world()), &message.status.back());
   for (const auto& cable : cables_) message.status.push_back(cable->Diagnostics());
   told_.push_back({now_, Told::kNoCable, std::move(message)});
@@ -351,6 +367,28 @@ std::vector<std::string> CableEngine::TakeNews() {
   return news;
 }
 
+Findings CableEngine::AllFindings() const {
+  Findings findings = options_.known;
+  const auto add = [&findings](Findings more) {
+    std::move(more.begin(), more.end(), std::back_inserter(findings));
+  };
+  add(links_.MotionFindings(links_.world()));
+  for (const auto& cable : cables_) add(cable->clamps().Report());
+  return findings;
+}
+
+// Each kind of each subject once: what was known before the run is not news.
+void CableEngine::TellFindings(const Findings& findings) {
+  for (const Finding& finding : findings) {
+    const bool is_new = told_findings_.insert(finding.kind + " " + finding.subject).second;
+    const bool is_known =
+        std::any_of(options_.known.begin(), options_.known.end(), [&](const Finding& known) {
+          return known.kind == finding.kind && known.subject == finding.subject;
+        });
+    if (is_new && !is_known) news_.push_back(finding.ToString());
+  }
+}
+
 Summary CableEngine::MakeSummary() const {
   Summary summary;
   summary.world_frame = links_.world();
@@ -360,6 +398,8 @@ Summary CableEngine::MakeSummary() const {
   summary.resets = resets_;
   summary.gaps = links_.gap_count();
   summary.warnings = links_.warnings().counts();
+  summary.findings = AllFindings();
+  summary.smooth = options_.links.smooth;
   for (const auto& cable : cables_) summary.cables.push_back(cable->summary());
   return summary;
 }

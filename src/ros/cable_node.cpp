@@ -4,6 +4,7 @@
 #include <ros/console.h>
 #include <ros/init.h>
 #include <ros/master.h>
+#include <ros/message_event.h>
 #include <ros/param.h>
 #include <unistd.h>
 
@@ -26,6 +27,8 @@ constexpr double kSpinSeconds = 0.02;
 constexpr double kWaitingPeriod = 1;
 
 using Clock = std::chrono::steady_clock;
+using TfEvent = ros::MessageEvent<const tf2_msgs::TFMessage>;
+using JointEvent = ros::MessageEvent<const sensor_msgs::JointState>;
 
 // Adds what only the live node knows to the engine's diagnostics, and watches how late it is.
 class NodeSink : public TopicSink {
@@ -160,6 +163,7 @@ ExitCode RunNode(const NodeOptions& options) {
     for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
     return kExitBadInput;
   }
+  for (const Problem& note : inputs.vehicle.notes.all()) ROS_WARN_STREAM(note.ToString());
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   std::vector<std::string> names;
   for (const CableModel& cable : inputs.cables.cables) names.push_back(cable.name);
@@ -169,23 +173,26 @@ ExitCode RunNode(const NodeOptions& options) {
   const auto hints = ros::TransportHints().tcpNoDelay();
   const MotionTopics& topics = options.engine.links.topics;
   const bool by_arrival = topics.use_record_times;
-  const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage>(
-      topics.tf, kInputQueue,
-      [&](const tf2_msgs::TFMessageConstPtr& message) {
-        engine.Ingest(by_arrival ? Restamped(*message) : *message, false);
-      },
+  const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
+      topics.tf, kInputQueue, boost::function<void(const TfEvent&)>([&](const TfEvent& event) {
+        const tf2_msgs::TFMessage& message = *event.getConstMessage();
+        engine.Ingest(by_arrival ? Restamped(message) : message, false, event.getPublisherName());
+      }),
       ros::VoidConstPtr(), hints);
-  const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage>(
+  const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
       topics.tf_static(), kInputQueue,
-      [&](const tf2_msgs::TFMessageConstPtr& message) { engine.Ingest(*message, true); },
+      boost::function<void(const TfEvent&)>([&](const TfEvent& event) {
+        engine.Ingest(*event.getConstMessage(), true, event.getPublisherName());
+      }),
       ros::VoidConstPtr(), hints);
   ros::Subscriber joints;
   if (options.use_joint_states) {
-    joints = node.subscribe<sensor_msgs::JointState>(
+    joints = node.subscribe<sensor_msgs::JointState, const JointEvent&>(
         topics.joint_states, kInputQueue,
-        [&](const sensor_msgs::JointStateConstPtr& message) {
-          engine.Ingest(by_arrival ? Restamped(*message) : *message);
-        },
+        boost::function<void(const JointEvent&)>([&](const JointEvent& event) {
+          const sensor_msgs::JointState& message = *event.getConstMessage();
+          engine.Ingest(by_arrival ? Restamped(message) : message, event.getPublisherName());
+        }),
         ros::VoidConstPtr(), hints);
   }
   ROS_INFO_STREAM(names.size() << " cables wait for the transforms of their links");

@@ -15,10 +15,9 @@ namespace cosserat_cable {
 diagnostic_msgs::DiagnosticStatus CableDiagnostics(const CableSummary& cable, bool failed,
                                                    const std::string& message, std::uint64_t held);
 
-diagnostic_msgs::DiagnosticStatus InputDiagnostics(const LinkMotion& links, std::uint64_t resets);
-
-/// A stamp [ns] as people read it: "1000.005 s".
-std::string StampText(std::int64_t stamp);
+/// `smooth`: cutoff of the links' motion [Hz]; 0: none.
+diagnostic_msgs::DiagnosticStatus InputDiagnostics(const LinkMotion& links, std::uint64_t resets,
+                                                   const Findings& findings, double smooth);
 
 /// Appends a key and its value.
 void AddValue(const std::string& key, const std::string& value,

@@ -72,6 +72,7 @@ Eigen::Vector3d MeanInWorld(const Sensor& sensor, const std::string& frame, cons
   *count = 0;
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   LinkMotionOptions link_options = options.links;
+  link_options.judge = false;
   link_options.world_frame = survey.world;
   LinkMotion links(vehicle, {frame}, link_options);
   bags.ForEach(survey.from, std::min(survey.to, survey.from + kSpan), [&](const BagMessage& m) {

@@ -8,6 +8,8 @@
 #include <set>
 #include <sstream>
 
+#include "avoided_links.h"
+#include "clamp_survey.h"
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/contact/body.h"
 #include "cosserat_cable/input/gravity.h"
@@ -29,11 +31,6 @@ std::string Join(const std::vector<std::string>& words) {
   return text;
 }
 
-void Feed(const BagMessage& message, LinkMotion* links) {
-  if (message.tf) links->Ingest(*message.tf, message.is_static);
-  if (message.joints) links->Ingest(*message.joints);
-}
-
 // Where the cables' clamps are when everything is first known, and whether cables can be hung
 // there.
 void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs& inputs,
@@ -47,11 +44,11 @@ void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs&
     survey->chords.push_back(chord);
     CheckClampDistance(cable, marks, chord, problems);
     for (const std::string& link : cable.avoid) {
-      const auto body = inputs.bodies.find(link);
-      if (body == inputs.bodies.end()) continue;
+      const Body* body = FindBody(inputs.bodies, cable, link);
+      if (!body) continue;
       const Pose X_BW = links.Evaluate(link, time).X.Inverse();
       const auto check = [&](const Pose& X_WC, const char* name, const SourceMark& mark) {
-        const Clearance clearance = body->second->Query(X_BW * X_WC.p, cable.diameter);
+        const Clearance clearance = body->Query(X_BW * X_WC.p, cable.diameter);
         // A clamp sits on a surface; one that is deeper than the cable is thick sits inside.
         if (clearance.distance >= -cable.diameter) return;
         char text[160];
@@ -106,6 +103,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
     return true;
   });
+  links.Finish();
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason);
   }
@@ -122,7 +120,15 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   survey.edges = links.edges();
   survey.warnings = links.warnings().counts();
   survey.gaps = links.gap_count();
-  survey.world = links.world();
+  survey.world = links.SmoothWorld();
+  if (survey.world != links.world()) survey.topmost = links.world();
+  // What is above the inertial frame moves no cable.
+  for (auto above = survey.edges.find(survey.world); above != survey.edges.end();
+       above = survey.edges.find(above->second.parent)) {
+    if (above->second.is_followed) survey.gaps -= above->second.gaps;
+    above->second.is_followed = false;
+  }
+  survey.findings = links.MotionFindings(survey.world);
   for (const auto& [child, edge] : survey.edges) {
     const bool by_tf =
         edge.source == LinkMotion::Source::kTf || edge.source == LinkMotion::Source::kTfStatic;
@@ -131,6 +137,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (!links.Missing().empty()) return;
 
   link_options.world_frame = survey.world;
+  link_options.judge = false;
   LinkMotion again(inputs->vehicle, needed, link_options);
   const auto dt = static_cast<std::int64_t>(options.dt * 1e9);
   const auto known = [&] {
@@ -155,6 +162,14 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   }
   CheckFirstInstant(again, survey.first_step, *inputs, &survey, problems);
   AddNotes(paths, options, *inputs, &survey);
+  if (paths.follow_clamps) {
+    EngineOptions followed = options;
+    followed.links.world_frame = survey.world;
+    survey.clamps = FollowClamps(bags, survey.from, survey.to, inputs->vehicle,
+                                 inputs->cables.cables, followed);
+    for (const ClampJudge& clamps : survey.clamps)
+      for (Finding& finding : clamps.Report()) survey.findings.push_back(std::move(finding));
+  }
   inputs->survey = std::move(survey);
 }
 
@@ -168,16 +183,21 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
 
   Problems cable_problems;
   inputs.cables = LoadCableFile(paths.cables, &cable_problems);
-  std::set<std::string> avoided;
+  std::set<std::string> collision, visual;
   for (const CableModel& cable : inputs.cables.cables) {
-    avoided.insert(cable.avoid.begin(), cable.avoid.end());
+    for (const std::string& link : cable.avoid)
+      (cable.avoid_visual.count(link) > 0 ? visual : collision).insert(link);
   }
+  VehicleUse use;
+  use.visual_links = {visual.begin(), visual.end()};
+  use.moving_links = NeededLinks(inputs.cables.cables);
   Problems vehicle_problems;
   const std::string folder = std::filesystem::absolute(paths.vehicle).parent_path().string();
-  inputs.vehicle = LoadVehicle(paths.vehicle, {avoided.begin(), avoided.end()},
-                               FindPackagesFrom(folder), &vehicle_problems);
+  inputs.vehicle = LoadVehicle(paths.vehicle, {collision.begin(), collision.end()},
+                               FindPackagesFrom(folder), &vehicle_problems, use);
   if (!inputs.vehicle.links.empty()) {
     CheckAgainstVehicle(inputs.cables, inputs.vehicle.links, &cable_problems);
+    CheckAvoidedLinks(inputs.cables, inputs.vehicle, paths.vehicle, &cable_problems);
     cable_problems.SortByLine();
   }
   for (const std::string& joint : options.links.held_joints) {
@@ -186,10 +206,12 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
                            "the vehicle has no joint '" + joint + "' to hold");
     }
   }
-  for (const auto& [link, shapes] : inputs.vehicle.collision) {
-    for (const Shape& shape : shapes) {
-      if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
-        inputs.triangles += static_cast<int>(mesh->triangles.size());
+  for (const auto* geometry : {&inputs.vehicle.collision, &inputs.vehicle.visual}) {
+    for (const auto& [link, shapes] : *geometry) {
+      for (const Shape& shape : shapes) {
+        if (const auto* mesh = std::get_if<TriangleMesh>(&shape.geometry)) {
+          inputs.triangles += static_cast<int>(mesh->triangles.size());
+        }
       }
     }
   }

@@ -42,6 +42,7 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
     : vehicle_(vehicle), links_(links), options_(std::move(options)), tree_(options_.max_gap) {
   options_.tf_prefix = WholePrefix(options_.tf_prefix);
   options_.world_frame = Own(options_.world_frame);
+  if (options_.judge) judge_.emplace(vehicle_, options_.max_gap);
   for (const JointModel& joint : vehicle_.joints) {
     joint_above_[joint.child] = &joint;
     joints_[joint.name] = &joint;
@@ -132,11 +133,25 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
 
 void LinkMotion::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                           Source source) {
-  if (AcceptSource(parent, child, source)) tree_.SetFixed(parent, child, X_PC);
+  Edge* edge = AcceptSource(parent, child, source);
+  if (!edge) return;
+  tree_.SetFixed(parent, child, X_PC);
+  if (judge_ && source == Source::kTfStatic && edge->is_followed)
+    judge_->AddFixed(parent, child, X_PC, ToString(source));
+}
+
+void LinkMotion::SetPublisher(const std::string& name, Source source) {
+  if (!judge_ || (publisher_number_ >= 0 && source == publisher_source_ && name == publisher_)) {
+    return;
+  }
+  publisher_ = name;
+  publisher_source_ = source;
+  publisher_number_ =
+      judge_->Publisher((name.empty() ? "somebody" : name) + " on " + ToString(source));
 }
 
 void LinkMotion::AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
-                           const Pose& X_PC, Source source) {
+                           const Pose& X_PC, Source source, const double* position) {
   if (stamp <= 0) {
     warnings_.Count(std::string("sample without a stamp by ") + ToString(source), child);
     Unstamped& unstamped = unstamped_[child];
@@ -146,7 +161,10 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
     return;
   }
   Edge* edge = AcceptSource(parent, child, source);
-  if (!edge) return;
+  if (!edge) {
+    JudgeRejected(parent, child, stamp, X_PC);
+    return;
+  }
   if (edge->samples > 0 && stamp < edge->last - kBackwardsJump) {
     Clear();
     warnings_.Count("time ran backwards");
@@ -154,6 +172,11 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
   if (!has_epoch_) {
     has_epoch_ = true;
     epoch_ = stamp;
+  }
+  // What is above the frame that the user takes as inertial moves nothing.
+  if (judge_ && edge->is_followed && child != options_.world_frame) {
+    if (!edge->judged) edge->judged = judge_->At(parent, child);
+    judge_->AddSaid(edge->judged, publisher_number_, stamp, X_PC);
   }
   const bool in_order = edge->samples == 0 || stamp > edge->last;
   if (!in_order) {
@@ -167,21 +190,85 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
   } else {
     const std::int64_t interval = stamp - edge->last;
     edge->longest_interval = std::max(edge->longest_interval, interval);
-    if (static_cast<double>(interval) * 1e-9 > options_.max_gap) ++edge->gaps;
+    if (edge->gap_rule.IsGap(static_cast<double>(interval) * 1e-9, options_.max_gap,
+                             edge->last_pose, X_PC)) {
+      ++edge->gaps;
+    }
+    edge->moves = edge->gap_rule.moves();
   }
+  edge->last_pose = X_PC;
   edge->last = stamp;
   ++edge->samples;
   last_stamp_ = std::max(last_stamp_, stamp);
   if (!edge->is_followed) return;
   if (!edge->samples_of) edge->samples_of = tree_.MovingEdge(parent, child);
-  if (!tree_.Append(edge->samples_of, Seconds(stamp), X_PC)) {
-    warnings_.Count("sample ignored by the motion curve",
-                    "frame '" + child + "' by " + ToString(source));
+  Judge(edge, child, stamp, X_PC, position);
+  if (!(options_.smooth > 0)) {
+    Deliver(edge, child, stamp, X_PC);
+    return;
+  }
+  if (!edge->smoother) {
+    edge->smoother =
+        &smoothers_.try_emplace(child, options_.smooth, options_.max_gap).first->second;
+  }
+  edge->smoother->Add(stamp, X_PC, [&](std::int64_t smooth_stamp, const Pose& X) {
+    Deliver(edge, child, smooth_stamp, X);
+  });
+}
+
+// As it was recorded.
+void LinkMotion::Judge(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC,
+                       const double* position) {
+  if (!edge->judged) return;
+  edge->judged->topic = ToString(edge->source);
+  const JointModel* joint = edge->judged->joint ? JointAbove(child) : nullptr;
+  if (!joint) return;
+  if (position) {
+    edge->judged->joint->Add(stamp, *position);
+  } else {
+    edge->judged->joint->Add(stamp, X_PC);
   }
 }
 
-void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
+// As the links follow it.
+void LinkMotion::Deliver(Edge* edge, const std::string& child, std::int64_t stamp,
+                         const Pose& X_PC) {
+  if (edge->judged) judge_->AddMotion(edge->judged, stamp, X_PC);
+  if (!tree_.Append(edge->samples_of, Seconds(stamp), X_PC)) {
+    warnings_.Count("sample ignored by the motion curve",
+                    "frame '" + child + "' by " + ToString(edge->source));
+  }
+}
+
+// What does not count may still contradict what does.
+void LinkMotion::JudgeRejected(const std::string& parent, const std::string& child,
+                               std::int64_t stamp, const Pose& X_PC) {
+  if (!judge_) return;
+  const auto known = edges_.find(child);
+  if (known == edges_.end() || known->second.parent != parent || !known->second.judged) return;
+  judge_->AddSaid(known->second.judged, publisher_number_, stamp, X_PC);
+}
+
+RecordingJudge::Way LinkMotion::WayAboveVehicle() const {
+  RecordingJudge::Way way = {vehicle_.root};
+  for (const Step& step : Ascend(vehicle_.root)) way.push_back(step.parent);
+  return way;
+}
+
+Findings LinkMotion::MotionFindings(const std::string& world) const {
+  return judge_ ? judge_->Report(WayAboveVehicle(), world) : Findings();
+}
+
+std::string LinkMotion::SmoothWorld() const {
+  if (!judge_ || world_.empty() || !options_.world_frame.empty()) return world_;
+  const RecordingJudge::Way way = WayAboveVehicle();
+  return way.back() == world_ ? judge_->SmoothFrame(way) : world_;
+}
+
+void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static,
+                        const std::string& publisher) {
   const Source source = is_static ? Source::kTfStatic : Source::kTf;
+  SetPublisher(publisher, source);
   for (const geometry_msgs::TransformStamped& transform : message.transforms) {
     const std::string parent = Own(transform.header.frame_id);
     const std::string child = Own(transform.child_frame_id);
@@ -202,10 +289,12 @@ void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static) {
 }
 
 void LinkMotion::IngestJoint(const JointModel& joint, double position, std::int64_t stamp) {
-  AddSample(joint.parent, joint.child, stamp, joint.Evaluate(position), Source::kJointStates);
+  AddSample(joint.parent, joint.child, stamp, joint.Evaluate(position), Source::kJointStates,
+            &position);
 }
 
-void LinkMotion::Ingest(const sensor_msgs::JointState& message) {
+void LinkMotion::Ingest(const sensor_msgs::JointState& message, const std::string& publisher) {
+  SetPublisher(publisher, Source::kJointStates);
   const std::int64_t stamp = ToNanoseconds(message.header.stamp);
   if (message.position.size() != message.name.size()) {
     warnings_.Count("joint state without a position for each name");
@@ -240,12 +329,22 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message) {
   }
 }
 
-void LinkMotion::Finish() { tree_.Finish(); }
+void LinkMotion::Finish() {
+  for (auto& [child, smoother] : smoothers_) {
+    Edge* edge = &edges_.at(child);
+    smoother.Finish(
+        [&, name = child](std::int64_t stamp, const Pose& X) { Deliver(edge, name, stamp, X); });
+  }
+  tree_.Finish();
+}
 
 void LinkMotion::Clear() {
   tree_.Clear();
+  if (judge_) judge_->Restart();
+  for (auto& [child, smoother] : smoothers_) smoother.Clear();
   for (auto& [child, edge] : edges_) {
     edge.samples = 0;
+    edge.gap_rule = GapRule();
     edge.first = edge.last = 0;
   }
   has_epoch_ = false;

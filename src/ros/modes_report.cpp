@@ -88,6 +88,7 @@ std::string ModesText(const CableModes& cable) {
                 1e3 * cable.model.length, cable.model.elements,
                 cable.touches ? ", touches a body at rest" : "");
   text << line;
+  if (!cable.warning.empty()) text << "  warning: " << cable.warning << "\n";
   if (!cable.failure.empty()) {
     text << "  FAILED: " << cable.failure << "\n";
     return text.str();
@@ -134,7 +135,9 @@ std::string ModesJson(const std::vector<CableModes>& cables, const ModesSetting&
     json << separator << "\n    " << JsonString(cable.model.name)
          << ": {\"elements\": " << cable.model.elements
          << ", \"wall_time\": " << JsonNumber(cable.wall_time)
-         << ", \"touches\": " << (cable.touches ? "true" : "false") << ", \"failure\": "
+         << ", \"touches\": " << (cable.touches ? "true" : "false") << ", \"warning\": "
+         << (cable.warning.empty() ? std::string("null") : JsonString(cable.warning))
+         << ", \"failure\": "
          << (cable.failure.empty() ? std::string("null") : JsonString(cable.failure))
          << ",\n      \"modes\": [";
     const char* comma = "";

@@ -18,6 +18,7 @@ struct CableModes {
   std::vector<rod::Mode> modes;
   double wall_time = 0;  ///< of the search for modes [s]
   bool touches = false;  ///< a body, at rest
+  std::string warning;   ///< that it is too deep in it; else empty
   std::string failure;   ///< empty while all is well
 };
 

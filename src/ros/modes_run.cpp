@@ -15,6 +15,7 @@
 
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/cable/cable_simulation.h"
+#include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/input/yaml_value.h"
@@ -164,6 +165,7 @@ void RefuseRecordingOptions(const ModesOptions& options, Problems* problems) {
   refuse(!options.engine.links.tf_prefix.empty(), "tf-prefix");
   refuse(!options.engine.links.world_frame.empty(), "world-frame");
   refuse(!options.engine.links.held_joints.empty(), "hold");
+  refuse(options.engine.links.smooth != 0, "smooth");
 }
 
 Scene OnVehicle(const ModesOptions& options, Problems* problems) {
@@ -177,6 +179,7 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
   Scene scene;
   Place place;
   LinkMotionOptions link_options = options.engine.links;
+  link_options.judge = false;
   if (inputs.survey) link_options.world_frame = inputs.survey->world;
   std::optional<LinkMotion> links;
   if (options.bags.empty()) {
@@ -197,9 +200,9 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
     Surroundings now{clamp(cable.a), clamp(cable.b), {}};
     std::vector<const Body*> obstacles;
     for (const std::string& link : cable.avoid) {
-      const auto body = scene.bodies.find(link);
-      if (body == scene.bodies.end()) continue;
-      obstacles.push_back(body->second.get());
+      const Body* body = FindBody(scene.bodies, cable, link);
+      if (!body) continue;
+      obstacles.push_back(body);
       now.obstacles.push_back(Motion::Resting(place(link)));
     }
     scene.surroundings.push_back(std::move(now));
@@ -263,6 +266,19 @@ void CheckOutputs(const ModesOptions& options, Problems* problems) {
     problems->Add(options.json, 0, "json", "got a folder, expected a file");
 }
 
+// A cable that lies too deep in a body is not where it would rest.
+std::string DepthWarning(const CableModel& cable, double penetration) {
+  const double needed = SufficientContactStiffness(cable, penetration);
+  if (!(needed > 0)) return "";
+  char text[200];
+  std::snprintf(text, sizeof text,
+                "rests %.3g mm deep in a body, %.0f %% of its radius; `contact: {stiffness: %.1e}` "
+                "would keep it within %.0f %%",
+                1e3 * penetration, 200 * penetration / cable.diameter, needed,
+                100 * kDeepestShareOfRadius);
+  return text;
+}
+
 CableModes Find(std::size_t i, const Scene& scene, int count) {
   CableModes found;
   found.model = scene.cables.cables[i];
@@ -275,6 +291,7 @@ CableModes Find(std::size_t i, const Scene& scene, int count) {
   }
   found.rest = simulation.nodes();
   found.touches = simulation.Report().contact_force > 0;
+  found.warning = DepthWarning(found.model, simulation.DeepestContact().penetration);
   const Clock::time_point start = Clock::now();
   try {
     found.modes = simulation.FindModes(count);

@@ -61,6 +61,7 @@ NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problem
   reader.Read("world_frame", "a frame", &engine.links.world_frame);
   reader.Read("hold_joints", "a list of joints", &engine.links.held_joints);
   reader.Read("max_gap", "a number [s]", &engine.links.max_gap);
+  reader.Read("smooth", "a number [Hz]", &engine.links.smooth);
   reader.Read("dt", "a number [s]", &engine.dt);
   reader.Read("telemetry_rate", "a number [Hz]", &engine.telemetry_rate);
   reader.Read("marker_rate", "a number [Hz]", &engine.marker_rate);

@@ -96,8 +96,8 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
       advance();
       advance_at = message.time + kReadAhead;
     }
-    if (message.tf) engine->Ingest(*message.tf, message.is_static);
-    if (message.joints) engine->Ingest(*message.joints);
+    if (message.tf) engine->Ingest(*message.tf, message.is_static, message.publisher());
+    if (message.joints) engine->Ingest(*message.joints, message.publisher());
     sink->Copy(std::move(message));
     return !Interrupted();
   });
@@ -123,10 +123,17 @@ ExitCode RunReplay(ReplayOptions options) {
   }
   CatchInterrupts();
   options.engine.links.world_frame = inputs.survey->world;
+  // The whole recording was judged by now, with what is above the inertial frame.
+  options.engine.links.judge = false;
+  options.engine.known = inputs.survey->findings;
   options.engine.dump_directory = FolderOf(options.output).string();
   if (!inputs.survey->world_is_recorded) {
     std::cerr << "no frame above the vehicle is recorded: its root '" << inputs.survey->world
               << "' is taken as inertial\n";
+  }
+  if (!inputs.survey->topmost.empty()) {
+    std::cerr << "'" << inputs.survey->world << "' is taken as inertial, not '"
+              << inputs.survey->topmost << "' above it: a localisation's corrections move it\n";
   }
 
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
@@ -159,7 +166,7 @@ ExitCode RunReplay(ReplayOptions options) {
   }
 
   Summary summary = engine.MakeSummary();
-  summary.notes = inputs.survey->notes;
+  summary.notes = Notes(inputs);
   summary.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.peak_memory = PeakMemory();

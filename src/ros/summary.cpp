@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/gravity.h"
 #include "json.h"
 
@@ -23,16 +24,32 @@ std::string Millimetres(double metres) {
   return std::isfinite(metres) ? Format("%.2f", 1e3 * metres) : std::string("-");
 }
 
-// A cable that loses less did not sway: its residual is rounding.
-constexpr double kNothingLost = 1e-9;  // [J]
+// A cable that loses less did not sway: its residual is rounding, and of the clamps' interpolated
+// speed, which a travelling cable follows with all of its kinetic energy.
+constexpr double kNothingLost = 1e-9;          // [J]
+constexpr double kNothingLostOfTravel = 1e-5;  // of the kinetic energy
 
 /// The balance's residual as a share of what was dissipated.
 std::string EnergyError(const CableSummary& cable) {
-  if (!(cable.dissipated > kNothingLost)) return "-";
+  if (!(cable.dissipated > kNothingLost + kNothingLostOfTravel * cable.kinetic_max)) return "-";
   return Format("%.3f", 100 * std::abs(cable.energy_residual) / cable.dissipated) + "%";
 }
 
 }  // namespace
+
+std::string CableSummary::DepthWarning() const {
+  if (!(stiffness_needed > 0)) return "";
+  char text[400];
+  std::snprintf(
+      text, sizeof text,
+      "sinks %.3g mm into '%s', %.0f %% of its radius (at s = %.3g m, %.3f s): its contact "
+      "forces are too small; with `contact: {stiffness: %.1e}` instead of %.2g N/m it "
+      "would stay within %.0f %%",
+      1e3 * penetration_max, penetration_body.c_str(), 100 * penetration_max / radius,
+      penetration_s, 1e-9 * static_cast<double>(penetration_time), stiffness_needed,
+      contact_stiffness, 100 * kDeepestShareOfRadius);
+  return text;
+}
 
 std::string Summary::ToText() const {
   std::ostringstream text;
@@ -41,25 +58,30 @@ std::string Summary::ToText() const {
        << Format("%.0f", peak_memory / 1e6) << " MB\n";
   text << "inertial frame '" << world_frame << "', " << GravityText(gravity_W, world_frame) << "\n";
   if (use_record_times) text << "times are those of recording, not the messages' stamps\n";
-  char line[200];
-  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8s\n", "cable", "amplitude",
-                "curvature", "clearance", "contact", "energy", "retries");
+  char line[240];
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s %8s\n", "cable", "amplitude",
+                "curvature", "clearance", "contact", "tension", "energy", "retries");
   text << line;
-  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %9s\n", "", "max [mm]", "max [1/m]",
-                "min [mm]", "max [N]", "off by");
+  std::snprintf(line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s\n", "", "max [mm]",
+                "max [1/m]", "min [mm]", "max [N]", "max [N]", "off by");
   text << line;
   for (const CableSummary& cable : cables) {
     std::snprintf(
-        line, sizeof line, "%-28s %11s %12s %12s %10s %9s %8llu\n", cable.name.c_str(),
+        line, sizeof line, "%-28s %11s %12s %12s %10s %10s %9s %8llu\n", cable.name.c_str(),
         Millimetres(cable.amplitude_max).c_str(), Format("%.2f", cable.curvature_max).c_str(),
-        Millimetres(cable.clearance_min).c_str(), Format("%.2f", cable.contact_force_max).c_str(),
+        (cable.bodies > 0 ? Millimetres(cable.clearance_min) : "no body").c_str(),
+        Format("%.2f", cable.contact_force_max).c_str(), Format("%.2f", cable.tension_max).c_str(),
         EnergyError(cable).c_str(), static_cast<unsigned long long>(cable.retried_steps));
     text << line;
+    if (cable.stiffness_needed > 0) text << "  warning: " << cable.DepthWarning() << "\n";
+    if (!cable.long_elements.empty()) text << "  warning: " << cable.long_elements << "\n";
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
+  if (smooth > 0) text << "links smoothed by a low-pass of " << Format("%g", smooth) << " Hz\n";
   for (const auto& [kind, count] : warnings) text << "warning: " << kind << ": " << count << "\n";
+  for (const Finding& finding : findings) text << "warning: " << finding.ToString() << "\n";
   for (const std::string& note : notes) text << "note: " << note << "\n";
   return text.str();
 }
@@ -80,7 +102,8 @@ std::string Summary::ToJson() const {
     json << separator << "\n    " << JsonString(kind) << ": " << count;
     separator = ",";
   }
-  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"cables\": {";
+  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"smooth\": " << JsonNumber(smooth)
+       << ",\n  \"findings\": " << JsonFindings(findings) << ",\n  \"cables\": {";
   separator = "";
   for (const CableSummary& cable : cables) {
     json << separator << "\n    " << JsonString(cable.name) << ": {\"steps\": " << cable.steps
@@ -89,8 +112,24 @@ std::string Summary::ToJson() const {
          << ", \"amplitude_max\": " << JsonNumber(cable.amplitude_max)
          << ", \"curvature_max\": " << JsonNumber(cable.curvature_max)
          << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
+         << ", \"bodies\": " << cable.bodies << ", \"long_elements\": "
+         << (cable.long_elements.empty() ? "null" : JsonString(cable.long_elements))
+         << ", \"contact_stiffness\": " << JsonNumber(cable.contact_stiffness)
+         << ", \"penetration_max\": " << JsonNumber(cable.penetration_max)
+         << ", \"penetration_share_of_radius\": "
+         << JsonNumber(cable.radius > 0 ? cable.penetration_max / cable.radius : 0)
+         << ", \"penetration_body\": "
+         << (cable.penetration_body.empty() ? "null" : JsonString(cable.penetration_body))
+         << ", \"penetration_s\": "
+         << (cable.penetration_body.empty() ? "null" : JsonNumber(cable.penetration_s))
+         << ", \"penetration_time\": "
+         << (cable.penetration_body.empty()
+                 ? "null"
+                 : JsonNumber(1e-9 * static_cast<double>(cable.penetration_time)))
+         << ", \"contact_stiffness_needed\": "
+         << (cable.stiffness_needed > 0 ? JsonNumber(cable.stiffness_needed) : "null")
          << ", \"contact_force_max\": " << JsonNumber(cable.contact_force_max)
-         << ", \"tension_max\": " << JsonNumber(cable.tension_max)
+         << ", \"tension_max\": " << JsonNumber(cable.tension_max) << JsonClamps(cable.clamps)
          << ", \"dissipated\": " << JsonNumber(cable.dissipated)
          << ", \"energy_residual\": " << JsonNumber(cable.energy_residual) << ", \"failure\": "
          << (cable.failure.empty() ? std::string("null") : JsonString(cable.failure)) << "}";

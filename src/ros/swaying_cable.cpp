@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
+#include "cosserat_cable/cable/contact_stiffness.h"
+#include "cosserat_cable/cable/resolution.h"
 #include "cosserat_cable/ros/markers.h"
 #include "cosserat_cable/ros/telemetry.h"
 #include "diagnostics.h"
@@ -18,13 +21,28 @@ CableEngine::SwayingCable::SwayingCable(const CableModel& model, std::vector<con
       simulation_(model, std::move(obstacles), options.gravity_W, options.clearance_reach),
       frames_(std::move(frames)),
       index_(index),
-      history_(std::llround(1e9 * options.amplitude_window)) {
+      history_(std::llround(1e9 * options.amplitude_window)),
+      clamps_(model.name, model.length, model.diameter) {
   surroundings_.obstacles.resize(frames_.obstacles.size());
   summary_.name = model.name;
+  summary_.bodies = frames_.obstacles.size();
+  summary_.radius = 0.5 * model.diameter;
+  summary_.contact_stiffness = model.contact.stiffness;
 }
 
 diagnostic_msgs::DiagnosticStatus CableEngine::SwayingCable::Diagnostics() const {
-  return CableDiagnostics(summary_, failed_, message_, held_);
+  return CableDiagnostics(summary(), failed_, message_, held_);
+}
+
+CableSummary CableEngine::SwayingCable::summary() const {
+  CableSummary summary = summary_;
+  summary.clamps = clamps_.range();
+  return summary;
+}
+
+void CableEngine::SwayingCable::JudgeClamps(const Instant& now) {
+  clamps_.Add(now.time, now.frames[frames_.a].X * model().a.X_LC,
+              now.frames[frames_.b].X * model().b.X_LC);
 }
 
 void CableEngine::SwayingCable::Surround(const Instant& now) {
@@ -37,6 +55,8 @@ void CableEngine::SwayingCable::Surround(const Instant& now) {
 void CableEngine::SwayingCable::Settle(const Instant& now, const std::string& world) {
   failed_ = false;
   history_.Clear();
+  clamps_.Restart();
+  JudgeClamps(now);
   Surround(now);
   const StepOutcome outcome = simulation_.Settle(surroundings_);
   if (!outcome.ok) {
@@ -82,12 +102,37 @@ void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t ti
 
 void CableEngine::SwayingCable::Record(const Instant& now) {
   const Eigen::Vector3d apex_W = PositionAt(simulation_, model().apex_s);
+  JudgeDepth(now.time);
   history_.Add(now.time, options_.amplitude_frame == AmplitudeFrame::kWorld
                              ? apex_W
                              : now.frames[frames_.reference].X.Inverse() * apex_W);
 }
 
+// How much deeper it will get, and so which stiffness would do, is not known yet.
+std::string CableEngine::SwayingCable::TooDeep() const {
+  char text[120];
+  std::snprintf(text, sizeof text, "sinks by more than %.0f %% of its radius into '",
+                100 * kDeepestShareOfRadius);
+  return "cable '" + model().name + "' " + text + summary_.penetration_body + "', from " +
+         StampText(summary_.penetration_time) +
+         " on: its contact forces are too small; the summary says which stiffness would do";
+}
+
+// Said once, when it is first too deep; the summary has the deepest.
+void CableEngine::SwayingCable::JudgeDepth(std::int64_t time) {
+  const ContactPoint deepest = simulation_.DeepestContact();
+  if (deepest.obstacle < 0 || deepest.penetration <= summary_.penetration_max) return;
+  const bool was_too_deep = summary_.stiffness_needed > 0;
+  summary_.penetration_max = deepest.penetration;
+  summary_.penetration_time = time;
+  summary_.penetration_s = deepest.s;
+  summary_.penetration_body = frames_.obstacle_names[static_cast<std::size_t>(deepest.obstacle)];
+  summary_.stiffness_needed = SufficientContactStiffness(model(), deepest.penetration);
+  if (summary_.stiffness_needed > 0 && !was_too_deep) news_.push_back(TooDeep());
+}
+
 void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world) {
+  if (now.telemetry) JudgeClamps(now);
   if (now.telemetry && !failed_ && !TellTelemetry(now))
     Fail("its state is not finite", now.time, world);
   if (!now.markers) return;
@@ -109,22 +154,37 @@ visualization_msgs::MarkerArray CableEngine::SwayingCable::InRecordedFrame(
   return markers;
 }
 
+// Said once; the summary has what the most that it carried asks for.
+void CableEngine::SwayingCable::JudgeElements(double tension, double curvature) {
+  if (tension <= summary_.tension_max && curvature <= summary_.curvature_max) return;
+  summary_.tension_max = std::max(summary_.tension_max, tension);
+  summary_.curvature_max = std::max(summary_.curvature_max, curvature);
+  const bool was_said = !summary_.long_elements.empty();
+  summary_.long_elements = TooLongElements(model(), summary_.tension_max, summary_.curvature_max);
+  if (!was_said && !summary_.long_elements.empty())
+    news_.push_back("cable '" + model().name + "': " + summary_.long_elements);
+}
+
 // False where something is not finite: nothing is told then.
 bool CableEngine::SwayingCable::TellTelemetry(const Instant& now) {
   ApexTelemetry message =
       MakeTelemetry(simulation_.ReportForces(), now.frames[frames_.reference], rest_, now.time);
   message.header.frame_id = WholePrefix(options_.links.tf_prefix) + model().reference;
   message.amplitude = history_.PeakToPeak();
+  message.bodies = static_cast<std::uint32_t>(frames_.obstacles.size());
   message.held = now.in_gap[frames_.a] || now.in_gap[frames_.b];
   CablePosture posture = simulation_.posture();
   const bool finite = std::all_of(posture.nodes.begin(), posture.nodes.end(),
                                   [](const Eigen::Vector3d& p) { return p.allFinite(); });
   if (!finite || !IsValid(message)) return false;
   if (message.held) ++held_;
-  summary_.curvature_max = std::max(summary_.curvature_max, message.curvature_max);
   summary_.contact_force_max = std::max(summary_.contact_force_max, message.contact_force);
-  summary_.tension_max = std::max(summary_.tension_max, message.tension);
+  JudgeElements(message.tension, message.curvature_max);
   summary_.amplitude_max = std::max(summary_.amplitude_max, message.amplitude);
+  // Nearly that of the whole cable: clamps a go where their vehicle goes.
+  summary_.kinetic_max =
+      std::max(summary_.kinetic_max, 0.5 * model().mass_per_length * model().length *
+                                         now.frames[frames_.a].v.squaredNorm());
   summary_.dissipated = message.dissipated;
   summary_.energy_residual = message.energy_residual;
   told_.push_back({now.time, index_, std::move(message), std::move(posture)});

@@ -11,6 +11,7 @@
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/ros/apex_history.h"
 #include "cosserat_cable/ros/cable_engine.h"
+#include "cosserat_cable/vehicle/clamp_judge.h"
 
 namespace cosserat_cable {
 
@@ -39,6 +40,7 @@ class CableEngine::SwayingCable {
   struct Frames {
     std::size_t reference, a, b;
     std::vector<std::size_t> obstacles;
+    std::vector<std::string> obstacle_names;  // likewise
   };
 
   /// `options` outlive this. `index`: by which the engine knows it.
@@ -47,7 +49,8 @@ class CableEngine::SwayingCable {
 
   const CableModel& model() const { return simulation_.model(); }
   CableSimulation* simulation() { return &simulation_; }
-  const CableSummary& summary() const { return summary_; }
+  CableSummary summary() const;
+  const ClampJudge& clamps() const { return clamps_; }
   diagnostic_msgs::DiagnosticStatus Diagnostics() const;
 
   void Settle(const Instant& now, const std::string& world);
@@ -68,9 +71,13 @@ class CableEngine::SwayingCable {
 
  private:
   void Surround(const Instant& now);
+  void JudgeClamps(const Instant& now);
   void Record(const Instant& now);
+  void JudgeDepth(std::int64_t time);
+  std::string TooDeep() const;
   void Fail(const std::string& message, std::int64_t time, const std::string& world);
   bool TellTelemetry(const Instant& now);
+  void JudgeElements(double tension, double curvature);
   visualization_msgs::MarkerArray InRecordedFrame(visualization_msgs::MarkerArray markers) const;
 
   const EngineOptions& options_;
@@ -79,6 +86,7 @@ class CableEngine::SwayingCable {
   std::size_t index_;
   Surroundings surroundings_;  // at the instant last asked for
   ApexHistory history_;
+  ClampJudge clamps_;
   Eigen::Vector3d rest_ = Eigen::Vector3d::Zero();  // of the apex, in the reference link [m]
   bool failed_ = false;
   bool shown_ = false;  // its markers are in the picture

@@ -58,6 +58,47 @@ TriangleMesh LoadMeshNamed(const urdf::Mesh& mesh, const tinyxml2::XMLElement& e
   return loaded;
 }
 
+bool HasZero(const urdf::Vector3& v) { return v.x == 0 || v.y == 0 || v.z == 0; }
+
+/// A size of zero: there is nothing to touch.
+bool IsEmpty(const urdf::Geometry& geometry) {
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      return static_cast<const urdf::Sphere&>(geometry).radius == 0;
+    case urdf::Geometry::BOX:
+      return HasZero(static_cast<const urdf::Box&>(geometry).dim);
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      return cylinder.radius == 0 || cylinder.length == 0;
+    }
+    case urdf::Geometry::MESH:
+      return HasZero(static_cast<const urdf::Mesh&>(geometry).scale);
+  }
+  return false;
+}
+
+decltype(Shape::geometry) ToShape(const urdf::Geometry& geometry,
+                                  const tinyxml2::XMLElement& element, const std::string& path,
+                                  const PackageFinder& find_package, MeshCache* cache,
+                                  Problems* problems) {
+  switch (geometry.type) {
+    case urdf::Geometry::SPHERE:
+      return Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
+    case urdf::Geometry::BOX: {
+      const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
+      return Box{{size.x, size.y, size.z}};
+    }
+    case urdf::Geometry::CYLINDER: {
+      const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
+      return Cylinder{cylinder.radius, cylinder.length};
+    }
+    case urdf::Geometry::MESH:
+      break;
+  }
+  return LoadMeshNamed(static_cast<const urdf::Mesh&>(geometry), element, path, find_package, cache,
+                       problems);
+}
+
 }  // namespace
 
 Pose ToPose(const urdf::Pose& pose) {
@@ -66,38 +107,29 @@ Pose ToPose(const urdf::Pose& pose) {
           Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized()};
 }
 
-std::vector<Shape> LoadCollision(const urdf::Link& link, const tinyxml2::XMLElement& element,
-                                 const std::string& path, const PackageFinder& find_package,
-                                 MeshCache* cache, Problems* problems) {
+const char* ElementName(GeometryKind kind) {
+  return kind == GeometryKind::kCollision ? "collision" : "visual";
+}
+
+std::vector<Shape> LoadGeometry(const urdf::Link& link, GeometryKind kind,
+                                const tinyxml2::XMLElement& element, const std::string& path,
+                                const PackageFinder& find_package, MeshCache* cache,
+                                Problems* problems) {
   std::vector<Shape> shapes;
-  const tinyxml2::XMLElement* written = element.FirstChildElement("collision");
-  for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
-    Shape shape;
-    shape.X_LS = ToPose(collision->origin);
-    const urdf::Geometry& geometry = *collision->geometry;
-    switch (geometry.type) {
-      case urdf::Geometry::SPHERE:
-        shape.geometry = Sphere{static_cast<const urdf::Sphere&>(geometry).radius};
-        break;
-      case urdf::Geometry::BOX: {
-        const urdf::Vector3& size = static_cast<const urdf::Box&>(geometry).dim;
-        shape.geometry = Box{{size.x, size.y, size.z}};
-        break;
-      }
-      case urdf::Geometry::CYLINDER: {
-        const auto& cylinder = static_cast<const urdf::Cylinder&>(geometry);
-        shape.geometry = Cylinder{cylinder.radius, cylinder.length};
-        break;
-      }
-      case urdf::Geometry::MESH:
-        shape.geometry =
-            LoadMeshNamed(static_cast<const urdf::Mesh&>(geometry),
-                          *written->FirstChildElement("geometry")->FirstChildElement("mesh"), path,
-                          find_package, cache, problems);
-        break;
+  const tinyxml2::XMLElement* written = element.FirstChildElement(ElementName(kind));
+  const auto add = [&](const urdf::Pose& origin, const urdf::Geometry& geometry) {
+    if (!IsEmpty(geometry)) {
+      const tinyxml2::XMLElement* shape =
+          written->FirstChildElement("geometry")->FirstChildElement();
+      shapes.push_back(
+          {ToPose(origin), ToShape(geometry, *shape, path, find_package, cache, problems)});
     }
-    shapes.push_back(std::move(shape));
-    written = written->NextSiblingElement("collision");
+    written = written->NextSiblingElement(ElementName(kind));
+  };
+  if (kind == GeometryKind::kCollision) {
+    for (const auto& collision : link.collision_array) add(collision->origin, *collision->geometry);
+  } else {
+    for (const auto& visual : link.visual_array) add(visual->origin, *visual->geometry);
   }
   return shapes;
 }

@@ -1,4 +1,4 @@
-// Collision geometry of one link: urdfdom's shapes, with their meshes loaded.
+// Geometry of one link: urdfdom's shapes, with their meshes loaded.
 #pragma once
 
 #include <tinyxml2.h>
@@ -22,10 +22,16 @@ Pose ToPose(const urdf::Pose& pose);
 /// one mesh at each of their corners.
 using MeshCache = std::map<std::pair<std::string, std::array<double, 3>>, TriangleMesh>;
 
-/// The shapes of `link`, which is written in `element` of the file `path`. Mesh names: package://,
-/// file://, absolute, or relative to the file.
-std::vector<Shape> LoadCollision(const urdf::Link& link, const tinyxml2::XMLElement& element,
-                                 const std::string& path, const PackageFinder& find_package,
-                                 MeshCache* cache, Problems* problems);
+enum class GeometryKind { kCollision, kVisual };
+
+/// The name of the XML element: "collision" or "visual".
+const char* ElementName(GeometryKind kind);
+
+/// The shapes of `link`, which is written in `element` of the file `path`, but for those with a
+/// size of zero. Mesh names: package://, file://, absolute, or relative to the file.
+std::vector<Shape> LoadGeometry(const urdf::Link& link, GeometryKind kind,
+                                const tinyxml2::XMLElement& element, const std::string& path,
+                                const PackageFinder& find_package, MeshCache* cache,
+                                Problems* problems);
 
 }  // namespace cosserat_cable

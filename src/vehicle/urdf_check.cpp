@@ -14,7 +14,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-enum class Range { kFinite, kPositive, kNonZero };
+enum class Range { kFinite, kNotNegative };
 
 const std::vector<std::string> kJointTypes = {"fixed",     "revolute", "continuous",
                                               "prismatic", "floating", "planar"};
@@ -27,18 +27,14 @@ std::string Nearest(const std::string& word, const std::vector<std::string>& can
 
 class UrdfCheck {
  public:
-  UrdfCheck(const XMLElement& robot, std::string path, Problems* problems)
-      : robot_(robot), path_(std::move(path)), problems_(*problems) {}
+  UrdfCheck(const XMLElement& robot, std::string path, const UrdfUse& use, Problems* problems,
+            Problems* notes)
+      : robot_(robot), path_(std::move(path)), use_(use), problems_(*problems), notes_(*notes) {}
 
   void Run() {
-    for (const XMLElement* e = robot_.FirstChildElement(); e; e = e->NextSiblingElement()) {
-      if (std::string(e->Name()).rfind("xacro:", 0) == 0) {
-        Add(*e, e->Name(), "this is xacro, not URDF: run xacro on it first");
-        return;
-      }
-    }
     Collect("link", &links_);
     Collect("joint", &joints_);
+    FindUsedJoints();
     if (links_.empty()) Add(robot_, "robot", "has no link");
     for (const auto& [name, link] : links_) CheckLink(name, *link);
     for (const auto& [name, joint] : joints_) CheckJoint(name, *joint);
@@ -50,6 +46,33 @@ class UrdfCheck {
 
   void Add(const XMLElement& where, const std::string& key, const std::string& message) {
     problems_.Add(path_, where.GetLineNum(), key, message);
+  }
+
+  void Note(const XMLElement& where, const std::string& key, const std::string& message) {
+    notes_.Add(path_, where.GetLineNum(), key, message);
+  }
+
+  /// Joints on the way from the root to a link whose motion is asked for.
+  void FindUsedJoints() {
+    std::map<std::string, std::pair<std::string, std::string>> above;  // joint and parent by child
+    for (const auto& [name, joint] : joints_) {
+      const XMLElement* parent = joint->FirstChildElement("parent");
+      const XMLElement* child = joint->FirstChildElement("child");
+      const char* from = parent ? parent->Attribute("link") : nullptr;
+      const char* to = child ? child->Attribute("link") : nullptr;
+      if (from && to) above.emplace(to, std::make_pair(name, from));
+    }
+    if (!use_.moving_links) return;
+    for (std::string link : *use_.moving_links) {
+      for (auto at = above.find(link); at != above.end(); at = above.find(link)) {
+        if (!used_joints_.insert(at->second.first).second) break;
+        link = at->second.second;
+      }
+    }
+  }
+
+  bool IsUsed(const std::string& joint) const {
+    return !use_.moving_links || used_joints_.count(joint) > 0;
   }
 
   void Collect(const char* kind, Named* elements) {
@@ -112,12 +135,9 @@ class UrdfCheck {
       return {};
     }
     for (const double number : numbers) {
-      const bool in_range =
-          range == Range::kFinite || number > 0 || (range == Range::kNonZero && number < 0);
-      if (in_range) continue;
+      if (range == Range::kFinite || number >= 0) continue;
       Add(element, full_key,
-          "got '" + std::string(text) + "', expected " + expected +
-              (range == Range::kPositive ? ", positive" : ", not zero"));
+          "got '" + std::string(text) + "', expected " + expected + ", none negative");
       return {};
     }
     return numbers;
@@ -130,7 +150,20 @@ class UrdfCheck {
     CheckNumbers(*origin, key + ".origin", "rpy", 3, Range::kFinite, false);
   }
 
-  void CheckGeometry(const XMLElement& element, const std::string& key) {
+  /// Sizes of a geometry: urdfdom takes any. Where a cable is to touch it, negative ones are
+  /// mistakes, and one of zero makes nothing of it.
+  void CheckSizes(const XMLElement& shape, const std::string& key, const char* attribute,
+                  std::size_t count, Range range, bool required, bool used) {
+    const std::vector<double> sizes =
+        CheckNumbers(shape, key, attribute, count, used ? range : Range::kFinite, required);
+    if (!used || std::count(sizes.begin(), sizes.end(), 0.0) == 0) return;
+    Note(shape, key + "." + attribute,
+         "got '" + std::string(shape.Attribute(attribute)) +
+             "': a geometry with a size of zero touches nothing");
+  }
+
+  /// `used`: a cable is to touch it.
+  void CheckGeometry(const XMLElement& element, const std::string& key, bool used) {
     const XMLElement* geometry = element.FirstChildElement("geometry");
     const XMLElement* shape = geometry ? geometry->FirstChildElement() : nullptr;
     if (!shape) {
@@ -141,14 +174,14 @@ class UrdfCheck {
     const std::string shape_key = key + "." + kind;
     if (kind == "mesh") {
       if (!shape->Attribute("filename")) Add(*shape, shape_key + ".filename", "is missing");
-      CheckNumbers(*shape, shape_key, "scale", 3, Range::kNonZero, false);
+      CheckSizes(*shape, shape_key, "scale", 3, Range::kFinite, false, used);
     } else if (kind == "box") {
-      CheckNumbers(*shape, shape_key, "size", 3, Range::kPositive, true);
+      CheckSizes(*shape, shape_key, "size", 3, Range::kNotNegative, true, used);
     } else if (kind == "cylinder") {
-      CheckNumbers(*shape, shape_key, "radius", 1, Range::kPositive, true);
-      CheckNumbers(*shape, shape_key, "length", 1, Range::kPositive, true);
+      CheckSizes(*shape, shape_key, "radius", 1, Range::kNotNegative, true, used);
+      CheckSizes(*shape, shape_key, "length", 1, Range::kNotNegative, true, used);
     } else if (kind == "sphere") {
-      CheckNumbers(*shape, shape_key, "radius", 1, Range::kPositive, true);
+      CheckSizes(*shape, shape_key, "radius", 1, Range::kNotNegative, true, used);
     } else {
       Add(*shape, shape_key,
           "unknown geometry, expected mesh, box, cylinder or sphere" + Nearest(kind, kGeometries));
@@ -156,11 +189,16 @@ class UrdfCheck {
   }
 
   void CheckLink(const std::string& name, const XMLElement& link) {
-    for (const char* kind : {"visual", "collision"}) {
+    const auto is_in = [&name = name](const std::vector<std::string>& links) {
+      return std::find(links.begin(), links.end(), name) != links.end();
+    };
+    for (const std::string kind : {"visual", "collision"}) {
+      const bool used = is_in(kind == "visual" ? use_.visual_links : use_.collision_links);
       const std::string key = Key("link", name) + "." + kind;
-      for (const XMLElement* e = link.FirstChildElement(kind); e; e = e->NextSiblingElement(kind)) {
+      for (const XMLElement* e = link.FirstChildElement(kind.c_str()); e;
+           e = e->NextSiblingElement(kind.c_str())) {
         CheckOrigin(*e, key);
-        CheckGeometry(*e, key);
+        CheckGeometry(*e, key, used);
       }
     }
     if (const XMLElement* inertial = link.FirstChildElement("inertial")) {
@@ -172,18 +210,20 @@ class UrdfCheck {
     const std::string key = Key("joint", name);
     CheckOrigin(joint, key);
     const std::string type = joint.Attribute("type") ? joint.Attribute("type") : "";
-    if (type == "planar") {
-      Add(joint, key + ".type", "planar joints are not supported: two positions, one message");
-    } else if (std::count(kJointTypes.begin(), kJointTypes.end(), type) == 0) {
+    if (std::count(kJointTypes.begin(), kJointTypes.end(), type) == 0) {
       Add(joint, key + ".type",
-          "got '" + type + "', expected fixed, revolute, continuous, prismatic or floating" +
+          "got '" + type +
+              "', expected fixed, revolute, continuous, prismatic, planar or floating" +
               Nearest(type, kJointTypes));
     }
-    if (const XMLElement* axis = joint.FirstChildElement("axis")) {
-      const std::vector<double> xyz =
-          CheckNumbers(*axis, key + ".axis", "xyz", 3, Range::kFinite, true);
+    // urdfdom does not look at the axis of a joint that has none.
+    const XMLElement* axis = joint.FirstChildElement("axis");
+    if (axis && type != "fixed" && type != "floating") {
       const bool turns = type == "revolute" || type == "continuous" || type == "prismatic";
-      if (turns && xyz.size() == 3 && std::hypot(xyz[0], xyz[1], xyz[2]) == 0) {
+      const bool used = turns && IsUsed(name);
+      const std::vector<double> xyz =
+          CheckNumbers(*axis, key + ".axis", "xyz", 3, Range::kFinite, used);
+      if (used && xyz.size() == 3 && std::hypot(xyz[0], xyz[1], xyz[2]) == 0) {
         Add(*axis, key + ".axis.xyz", "got '0 0 0', expected a direction");
       }
     }
@@ -196,6 +236,7 @@ class UrdfCheck {
     const std::string key = Key("joint", name) + ".mimic";
     CheckNumbers(*mimic, key, "multiplier", 1, Range::kFinite, false);
     CheckNumbers(*mimic, key, "offset", 1, Range::kFinite, false);
+    if (!IsUsed(name)) return;
     const std::string leader = mimic->Attribute("joint") ? mimic->Attribute("joint") : "";
     if (!Find(joints_, leader)) {
       Add(*mimic, key + ".joint",
@@ -267,14 +308,32 @@ class UrdfCheck {
 
   const XMLElement& robot_;
   std::string path_;
+  const UrdfUse& use_;
   Problems& problems_;
+  Problems& notes_;
   Named links_, joints_;
+  std::set<std::string> used_joints_;
 };
 
 }  // namespace
 
-void CheckUrdf(const XMLElement& robot, const std::string& path, Problems* problems) {
-  UrdfCheck(robot, path, problems).Run();
+void CheckUrdf(const XMLElement& robot, const std::string& path, const UrdfUse& use,
+               Problems* problems, Problems* notes) {
+  Problems found;
+  UrdfCheck(robot, path, use, &found, notes).Run();
+  // What only xacro understands is nothing to urdfdom: it does not matter where all else is there.
+  for (const XMLElement* e = robot.FirstChildElement(); e; e = e->NextSiblingElement()) {
+    if (std::string(e->Name()).rfind("xacro:", 0) != 0) continue;
+    if (found.empty()) {
+      notes->Add(path, e->GetLineNum(), e->Name(),
+                 "this is xacro, not URDF, and counts for nothing");
+      continue;
+    }
+    found = Problems();
+    found.Add(path, e->GetLineNum(), e->Name(), "this is xacro, not URDF: run xacro on it first");
+    break;
+  }
+  problems->Append(found);
 }
 
 std::string NameOf(const XMLElement& element) {

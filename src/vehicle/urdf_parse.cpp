@@ -47,7 +47,7 @@ void AddMissingLimits(tinyxml2::XMLElement* robot) {
 }  // namespace
 
 urdf::ModelInterfaceSharedPtr ParseUrdf(tinyxml2::XMLDocument* document, const std::string& path,
-                                        Problems* problems) {
+                                        Problems* problems, Problems* complaints) {
   AddMissingLimits(document->RootElement());
   tinyxml2::XMLPrinter printer;
   document->Print(&printer);
@@ -60,8 +60,8 @@ urdf::ModelInterfaceSharedPtr ParseUrdf(tinyxml2::XMLDocument* document, const s
     found.Add(path, error.what());
   }
   if (!model && found.empty()) found.Add(path, "is not a URDF that urdfdom can read");
-  problems->Append(found);
-  return found.empty() ? model : nullptr;
+  (model ? complaints : problems)->Append(found);
+  return model;
 }
 
 }  // namespace cosserat_cable

@@ -13,8 +13,9 @@ namespace cosserat_cable {
 
 /// The model that urdfdom makes of a document, or null with at least one problem. Adds <limit> to
 /// joints that lack it: urdfdom insists on limits, which nothing here uses. Not for several threads
-/// at once: urdfdom's messages go through one global handler.
+/// at once: urdfdom's messages go through one global handler. `complaints`: what it said although
+/// it made a model, from which the rest of a link may then be missing.
 urdf::ModelInterfaceSharedPtr ParseUrdf(tinyxml2::XMLDocument* document, const std::string& path,
-                                        Problems* problems);
+                                        Problems* problems, Problems* complaints);
 
 }  // namespace cosserat_cable

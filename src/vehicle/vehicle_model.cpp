@@ -43,6 +43,7 @@ JointModel ToJoint(const urdf::Joint& joint) {
       model.type = JointModel::Type::kPrismatic;
       break;
     case urdf::Joint::FLOATING:
+    case urdf::Joint::PLANAR:
       model.type = JointModel::Type::kFloating;
       break;
     default:
@@ -60,17 +61,31 @@ JointModel ToJoint(const urdf::Joint& joint) {
   return model;
 }
 
-/// Makes every joint follow the head of its chain. @pre no circles
+/// Makes every joint follow the head of its chain. One that follows nobody, or itself, is on its
+/// own: no cable uses it.
 void ResolveMimicChains(VehicleModel* vehicle) {
   for (JointModel& joint : vehicle->joints) {
-    while (!joint.mimic.empty()) {
-      const JointModel& leader = *vehicle->FindJoint(joint.mimic);
+    for (std::size_t followed = 0; !joint.mimic.empty(); ++followed) {
+      const JointModel* found = vehicle->FindJoint(joint.mimic);
+      if (!found || followed > vehicle->joints.size()) {
+        joint.mimic.clear();
+        break;
+      }
+      const JointModel& leader = *found;
       if (leader.mimic.empty()) break;
       joint.mimic = leader.mimic;
       joint.mimic_offset += joint.mimic_multiplier * leader.mimic_offset;
       joint.mimic_multiplier *= leader.mimic_multiplier;
     }
   }
+}
+
+int CountElements(const XMLElement& link, GeometryKind kind) {
+  int count = 0;
+  for (const XMLElement* e = link.FirstChildElement(ElementName(kind)); e;
+       e = e->NextSiblingElement(ElementName(kind)))
+    ++count;
+  return count;
 }
 
 /// The root element; null, with a problem, where the file is no URDF.
@@ -121,7 +136,8 @@ bool VehicleModel::HasLink(const std::string& link_name) const {
 }
 
 VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>& collision_links,
-                         const PackageFinder& find_package, Problems* problems) {
+                         const PackageFinder& find_package, Problems* problems,
+                         const VehicleUse& use) {
   VehicleModel vehicle;
   tinyxml2::XMLDocument document;
   XMLElement* robot = OpenUrdf(path, &document, problems);
@@ -129,13 +145,17 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
 
   for (const XMLElement* e = robot->FirstChildElement("link"); e;
        e = e->NextSiblingElement("link")) {
-    if (!NameOf(*e).empty()) vehicle.links.push_back(NameOf(*e));
+    if (NameOf(*e).empty()) continue;
+    vehicle.links.push_back(NameOf(*e));
+    vehicle.entries[NameOf(*e)] = {e->GetLineNum(), CountElements(*e, GeometryKind::kCollision),
+                                   CountElements(*e, GeometryKind::kVisual)};
   }
-  Problems found;
-  CheckUrdf(*robot, path, &found);
+  Problems found, complaints;
+  CheckUrdf(*robot, path, {collision_links, use.visual_links, use.moving_links}, &found,
+            &vehicle.notes);
   // urdfdom stops at its first error, and would repeat these without a line.
   const urdf::ModelInterfaceSharedPtr model =
-      found.empty() ? ParseUrdf(&document, path, &found) : nullptr;
+      found.empty() ? ParseUrdf(&document, path, &found, &complaints) : nullptr;
   found.SortByLine();
   problems->Append(found);
   if (!model) return vehicle;
@@ -147,17 +167,27 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
     vehicle.joints.push_back(ToJoint(*model->getJoint(NameOf(*e))));
   }
   ResolveMimicChains(&vehicle);
+  bool whole = true;
   MeshCache meshes;
   for (const XMLElement* e = robot->FirstChildElement("link"); e;
        e = e->NextSiblingElement("link")) {
     const std::string link = NameOf(*e);
-    if (std::find(collision_links.begin(), collision_links.end(), link) == collision_links.end()) {
-      continue;
-    }
-    std::vector<Shape> shapes =
-        LoadCollision(*model->getLink(link), *e, path, find_package, &meshes, problems);
-    if (!shapes.empty()) vehicle.collision[link] = std::move(shapes);
+    const auto load = [&](const std::vector<std::string>& links, GeometryKind kind,
+                          std::map<std::string, std::vector<Shape>>* loaded) {
+      if (std::find(links.begin(), links.end(), link) == links.end()) return;
+      const urdf::Link& parsed = *model->getLink(link);
+      // urdfdom keeps what it had read of a link when it came to a mistake.
+      const std::size_t read = kind == GeometryKind::kCollision ? parsed.collision_array.size()
+                                                                : parsed.visual_array.size();
+      if (static_cast<int>(read) != CountElements(*e, kind)) whole = false;
+      std::vector<Shape> shapes =
+          LoadGeometry(parsed, kind, *e, path, find_package, &meshes, problems);
+      if (!shapes.empty()) (*loaded)[link] = std::move(shapes);
+    };
+    load(collision_links, GeometryKind::kCollision, &vehicle.collision);
+    load(use.visual_links, GeometryKind::kVisual, &vehicle.visual);
   }
+  (whole ? &vehicle.notes : problems)->Append(complaints);
   return vehicle;
 }
 

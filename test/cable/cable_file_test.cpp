@@ -39,7 +39,8 @@ TEST(CableFile, FillsInWhatWasNotMeasured) {
   EXPECT_TRUE(cable.masses.empty());
   EXPECT_TRUE(cable.avoid.empty());
   EXPECT_TRUE(cable.uncertain.empty());
-  EXPECT_EQ(cable.contact.stiffness, ContactLaw().stiffness);
+  // 96 * 0.012/0.04 + 98.1 * 0.09 * 0.2 = 30.57 N on 5 % of 4 mm, rounded up to two digits
+  EXPECT_NEAR(cable.contact.stiffness, 1.6e5, 1.6e5 * kSixDigits);
 }
 
 TEST(CableFile, TakesAxialStiffnessFromTheSofterDirection) {
@@ -138,6 +139,30 @@ TEST(CableFile, TakesFromATypeWhatACableDoesNotSay) {
   // The default depends on the cable's own length, not on its type's.
   EXPECT_NEAR(two.eta_EA / two.length / std::sqrt(two.EA),
               one.eta_EA / one.length / std::sqrt(one.EA), kSixDigits);
+}
+
+TEST(CableFile, TakesVisualGeometryByLinkOrByCable) {
+  using Links = std::set<std::string>;
+  const auto visual = [](const std::string& lines) {
+    return Load(Vehicle(std::string("  - name: one\n    type: hose\n") + kClamps + lines))
+        .file.cables.at(0)
+        .avoid_visual;
+  };
+  const std::string some = "    avoid: [arm, {link: rim, use_visual: true}, {link: hub}]\n";
+  EXPECT_EQ(visual(some), Links({"rim"}));
+  EXPECT_EQ(visual(some + "    use_visual: false\n"), Links({"rim"}));
+  EXPECT_EQ(visual(some + "    use_visual: true\n"), Links({"arm", "rim", "hub"}));
+  EXPECT_EQ(visual("    use_visual: true\n    avoid: [arm, {link: rim, use_visual: false}]\n"),
+            Links({"arm"}));
+}
+
+TEST(CableFile, ContactOfATypeLeavesTheStiffnessToTheCable) {
+  const std::string text =
+      Replaced(Vehicle(std::string("  - name: one\n    type: hose\n") + kClamps), "eta_EI: 2.0e-4",
+               "eta_EI: 2.0e-4, contact: {damping: 0}");
+  const CableModel cable = Load(text).file.cables.at(0);
+  EXPECT_EQ(cable.contact.damping, 0);
+  EXPECT_NEAR(cable.contact.stiffness, 1.6e5, 1.6e5 * kSixDigits);  // as in FillsIn...
 }
 
 TEST(CableFile, ReportsTypesThatAreNotThere) {
@@ -295,6 +320,12 @@ TEST(CableFile, ReportsUncertainAndAvoidThatNameNothingKnown) {
             "f:9: cable.uncertain: got 'EI', expected a list of the names of numeric keys\n");
   EXPECT_EQ(SaidWith("  avoid: [arm, wheel, arm]\n"),
             "f:9: cable.avoid[2]: got 'arm' twice, expected it once\n");
+  EXPECT_EQ(SaidWith("  avoid: [arm, {link: arm, use_visual: true}]\n"),
+            "f:9: cable.avoid[1].link: got 'arm' twice, expected it once\n");
+  EXPECT_EQ(SaidWith("  avoid: [{link: arm, use_visaul: true}]\n"),
+            "f:9: cable.avoid[0].use_visaul: got an unknown key, did you mean 'use_visual'?\n");
+  EXPECT_EQ(SaidWith("  use_visual: 1\n"),
+            "f:9: cable.use_visual: got 1, expected true or false\n");
   EXPECT_EQ(SaidWith("  avoid: arm\n"), "f:9: cable.avoid: got 'arm', expected a list of links\n");
 }
 

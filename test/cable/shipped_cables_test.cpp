@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cable/cable_text.h"
+#include "cosserat_cable/cable/contact_stiffness.h"
 
 namespace cosserat_cable {
 namespace {
@@ -32,6 +33,7 @@ void ExpectSame(const CableModel& a, const CableModel& b) {
   }
   EXPECT_EQ(a.elements, b.elements);
   EXPECT_EQ(a.avoid, b.avoid);
+  EXPECT_EQ(a.avoid_visual, b.avoid_visual);
   EXPECT_EQ(a.uncertain, b.uncertain);
   ASSERT_EQ(a.extensions.size(), b.extensions.size());
   for (std::size_t i = 0; i < a.extensions.size(); ++i) {
@@ -54,13 +56,13 @@ void ExpectRoundTrip(const CableFile& file) {
 
 TEST(WriteCableFile, ReadsBackToTheSameBits) {
   ExpectRoundTrip(Load(kSpecimen).file);
-  const Loaded vehicle = Load(
-      Vehicle("  - name: one\n    type: hose\n    EI1: 0.0123456789012345678\n    EI2: 0.02\n"
-              "    length: 0.33333333333333333\n    masses: [{s: 0.1, mass: 0.0007}]\n"
-              "    eta_GA1: 0.3\n    eta_GA2: critical\n    uncertain: [EI, GJ]\n"
-              "    contact: {smoothing: 3.3e-5}\n    avoid: [\"it's\", 'null']\n"
-              "    a: {link: 'a: b', pose: [0.1, 0.2, 0.3, 0.18257, 0.36515, 0.54772, 0.7303]}\n"
-              "    b: {link: wheel, pose: [0, 0, 0.1, 1, 0, 0, 0]}\n"));
+  const Loaded vehicle = Load(Vehicle(
+      "  - name: one\n    type: hose\n    EI1: 0.0123456789012345678\n    EI2: 0.02\n"
+      "    length: 0.33333333333333333\n    masses: [{s: 0.1, mass: 0.0007}]\n"
+      "    eta_GA1: 0.3\n    eta_GA2: critical\n    uncertain: [EI, GJ]\n"
+      "    contact: {smoothing: 3.3e-5}\n    avoid: [\"it's\", {link: 'null', use_visual: true}]\n"
+      "    a: {link: 'a: b', pose: [0.1, 0.2, 0.3, 0.18257, 0.36515, 0.54772, 0.7303]}\n"
+      "    b: {link: wheel, pose: [0, 0, 0.1, 1, 0, 0, 0]}\n"));
   ASSERT_EQ(vehicle.said, "");
   ExpectRoundTrip(vehicle.file);
 }
@@ -100,7 +102,7 @@ TEST(ShippedCables, TheTemplateSaysTheDefaults) {
   ASSERT_EQ(file.cables.size(), 1u);
   const CableModel& cable = file.cables[0];
   EXPECT_EQ(cable.elements, CableModel().elements);
-  EXPECT_EQ(cable.contact.stiffness, ContactLaw().stiffness);
+  EXPECT_EQ(cable.contact.stiffness, DefaultContactStiffness(cable));
   EXPECT_EQ(cable.contact.smoothing, ContactLaw().smoothing);
   EXPECT_EQ(cable.contact.damping, ContactLaw().damping);
   EXPECT_EQ(cable.apex_s, cable.length / 2);

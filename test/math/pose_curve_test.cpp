@@ -452,7 +452,7 @@ TEST(PoseCurve, StreamedIsBatchBitForBit) {
 TEST(PoseCurve, LatencyIsOneWindow) {
   PoseCurve curve;
   for (int i = 0; i < 50; ++i) {
-    curve.Append(i, At({0, 0, 0}));
+    curve.Append(i, At({i * 1.0, 0, 0}));
   }
   PoseCurve slow(2.0);
   for (int i = 0; i < 50; ++i) slow.Append(i, At({0, 0, 0}));

@@ -76,6 +76,45 @@ TEST(ApexGateTest, EachBoundCanFail) {
   EXPECT_EQ(violations(rms, Swing(0.002, 10, 200, 1)), 1u) << "half of the stamps are missing";
 }
 
+// As of a cable from which all bodies are out of reach, or that has none.
+std::vector<ApexTelemetry> FarFromBodies(std::uint32_t bodies) {
+  std::vector<ApexTelemetry> messages = Swing(0.002, 10, 200, 2);
+  for (ApexTelemetry& m : messages) {
+    m.clearance = INFINITY;
+    m.bodies = bodies;
+  }
+  return messages;
+}
+
+TEST(ApexGateTest, NothingIsNotClearOfNothing) {
+  const auto violations = [](std::uint32_t bodies, auto set) {
+    ApexBounds bounds;
+    set(&bounds);
+    return Judge(FarFromBodies(bodies), {}, bounds).violations;
+  };
+  for (const auto& set :
+       std::vector<void (*)(ApexBounds*)>{[](ApexBounds* b) { b->min_clearance = 0.005; },
+                                          [](ApexBounds* b) { b->max_penetration = 0.001; },
+                                          [](ApexBounds* b) { b->max_contact_force = 1; }}) {
+    EXPECT_TRUE(violations(1, set).empty()) << "a body is there, out of reach";
+    ASSERT_EQ(violations(0, set).size(), 1u);
+    EXPECT_NE(violations(0, set)[0].find("nothing to be clear of"), std::string::npos);
+  }
+  EXPECT_TRUE(violations(0, [](ApexBounds* b) { b->peak_to_peak_max = 1; }).empty());
+}
+
+TEST(ApexGateTest, WhatIsNotJudgedDoesNotPass) {
+  const auto messages = Swing(0.002, 10, 200, 2);
+  ApexBounds bounds;
+  EXPECT_EQ(Judge(messages, {}, bounds).violations.size(), 1u) << "no bound";
+  bounds.peak_to_peak_max = 1;
+  EXPECT_TRUE(Judge(messages, {}, bounds).violations.empty());
+  bounds.end = 18;
+  ASSERT_EQ(Judge(messages, {}, bounds).violations.size(), 1u);
+  EXPECT_NE(Judge(messages, {}, bounds).violations[0].find("the telemetry ends at 2.000 s"),
+            std::string::npos);
+}
+
 TEST(ApexGateTest, MissingBagIsAProblem) {
   Problems problems;
   EXPECT_TRUE(ReadApexTelemetry("/no/such.bag", "c", &problems).empty());

@@ -118,7 +118,9 @@ TEST(BagReader, ReadsTopicsOfOtherNames) {
   EXPECT_EQ(reader.count(), 11u);
   int statics = 0;
   reader.ForEach(reader.begin_time(), reader.end_time(), [&](const BagMessage& message) {
-    if (message.joints) EXPECT_GE(message.joints->position[0], 0);
+    if (message.joints) {
+      EXPECT_GE(message.joints->position[0], 0);
+    }
     statics += message.is_static ? 1 : 0;
     return true;
   });

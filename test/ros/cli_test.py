@@ -2,7 +2,9 @@
 """Bad input to cable_check, cable_replay and cable_modes: every problem at once, exit 2, and no file
 written."""
 import json
+import math
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -13,6 +15,7 @@ import unittest
 
 import rosbag
 import rospy
+from diagnostic_msgs.msg import DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import JointState
 from std_msgs.msg import String
@@ -117,6 +120,160 @@ class CommandLine(unittest.TestCase):
                          output[:-len('.bag')] + '.cables.yaml')
         self.assertEqual(code, 0, text)
 
+    # ---- Recordings that contradict themselves.
+
+    CART = """<robot name="cart"><link name="base_link"/></robot>"""
+    RIG = """<robot name="rig"><link name="base_link"/><link name="slider"/>
+      <joint name="travel" type="prismatic"><parent link="base_link"/><child link="slider"/>
+        <origin xyz="0.1 0 0"/><axis xyz="1 0 0"/>
+        <limit lower="-0.1" upper="0.1" effort="100" velocity="1"/></joint></robot>"""
+    ARCH = """format: 1
+cables:
+  - name: lead
+    length: 0.40
+    diameter: 0.005
+    mass_per_length: 0.03
+    EI: 2.5e-3
+    GJ: 2.5e-3
+    eta_EI: 1.0e-5
+    a: {link: base_link, pose: [0, 0, 1, 1, 0, 0, 0]}
+    b: {link: %s, pose: [0, 0.2, 1, 0, 0, 0, 1]}
+"""
+
+    @staticmethod
+    def moved(parent, child, stamp, x):
+        message = TransformStamped()
+        message.header.stamp = rospy.Time.from_sec(stamp)
+        message.header.frame_id, message.child_frame_id = parent, child
+        message.transform.translation.x = x
+        message.transform.rotation.w = 1
+        return TFMessage([message])
+
+    def write_messages(self, name, messages):
+        """A bag of (topic, stamp [s], message)."""
+        with rosbag.Bag(self.path(name), 'w') as bag:
+            for topic, stamp, message in sorted(messages, key=lambda m: m[1]):
+                bag.write(topic, message, rospy.Time.from_sec(stamp))
+        return self.path(name)
+
+    def judged(self, bag, *more, vehicle=CART, link='base_link'):
+        """What cable_check and cable_replay write to JSON, after both ended well."""
+        for name, text in (('v.urdf', vehicle), ('c.yaml', self.ARCH % link)):
+            with open(self.path(name), 'w') as target:
+                target.write(text)
+        results = []
+        for tool, output in (('cable_check', []),
+                             ('cable_replay', ['--output', self.path('out.bag')])):
+            code, text = run(tool, '--vehicle', self.path('v.urdf'), '--cables',
+                             self.path('c.yaml'), '--bag', bag, '--json', self.path('o.json'),
+                             *output, *more)
+            self.assertEqual(code, 0, text)
+            with open(self.path('o.json')) as source:
+                results.append(json.load(source))
+            # Each finding is printed too.
+            for finding in results[-1]['findings']:
+                self.assertIn(finding['what'], text)
+        for kind in ('kind', 'subject', 'worst', 'size'):
+            self.assertEqual(*[[f[kind] for f in result['findings']] for result in results])
+        return results
+
+    def test_late_stamps_are_told_and_smoothed(self):
+        generator = random.Random(1)
+        stamps = [100 + i / 100 + generator.uniform(0, 0.002) for i in range(501)]
+        bag = self.write_messages('late.bag', [
+            ('/tf', stamp, self.moved('odom', 'base_link', stamp, 0.1 * i))
+            for i, stamp in enumerate(stamps)])
+        _, rough = self.judged(bag)
+        self.assertEqual([f['kind'] for f in rough['findings']], ['late_stamps'])
+        self.assertEqual(rough['findings'][0]['subject'], 'odom -> base_link')
+        self.assertGreater(rough['cables']['lead']['amplitude_max'], 0.02)
+        _, smooth = self.judged(bag, '--smooth', '20')
+        self.assertEqual(smooth['findings'], [])
+        # It rolls on steadily: nothing sways. Stamps evened out over a second leave 2 %.
+        self.assertLess(smooth['cables']['lead']['amplitude_max'], 0.002)
+
+    def test_corrections_of_a_localisation_do_not_shake_cables(self):
+        messages = []
+        for i in range(251):
+            stamp = 100 + i / 50
+            messages.append(('/tf', stamp, self.moved('odom', 'base_link', stamp, 0.04 * i)))
+            if i % 5 == 0:
+                x = 7 if i < 125 else 7.1
+                messages.append(('/tf', stamp, self.moved('map', 'odom', stamp, x)))
+        bag = self.write_messages('map.bag', messages)
+        check, replay = self.judged(bag)
+        self.assertEqual(check['world_frame'], 'odom')
+        self.assertEqual(replay['world_frame'], 'odom')
+        self.assertLess(replay['cables']['lead']['amplitude_max'], 1e-5)
+        finding, = replay['findings']
+        self.assertEqual((finding['kind'], finding['subject']), ('jump', 'map -> odom'))
+        self.assertAlmostEqual(finding['size'], 0.1)
+        self.assertAlmostEqual(finding['worst'], 102.5)
+        _, replay = self.judged(bag, '--world-frame', 'map')
+        self.assertEqual(replay['world_frame'], 'map')
+        self.assertGreater(replay['cables']['lead']['amplitude_max'], 0.05)
+        self.assertIn('--world-frame odom', replay['findings'][0]['remedy'])
+        _, replay = self.judged(bag, '--world-frame', 'odom')
+        self.assertEqual(replay['findings'], [])
+
+    def test_constant_transforms_sent_slowly_are_no_gaps(self):
+        messages = []
+        for i in range(201):
+            stamp = 100 + i / 50
+            messages.append(('/tf', stamp, self.moved('odom', 'base_link', stamp, 0.04 * i)))
+            if i % 50 == 0:
+                messages.append(('/tf', stamp, self.moved('world', 'odom', stamp, 5)))
+        check, replay = self.judged(self.write_messages('slow.bag', messages))
+        self.assertEqual((check['gaps'], replay['gaps']), (0, 0))
+        with rosbag.Bag(self.path('out.bag')) as out:
+            held = [m.held for _, m, _ in out.read_messages('/cables/lead/apex')]
+        self.assertGreater(len(held), 700)
+        self.assertFalse(any(held))
+
+    def joint_bag(self, positions):
+        messages = []
+        for i, position in enumerate(positions):
+            message = JointState(name=['travel'], position=[position])
+            message.header.stamp = rospy.Time.from_sec(10 + i / 100)
+            messages.append(('/joint_states', 10 + i / 100, message))
+        return self.write_messages('joints.bag', messages)
+
+    def test_clamps_pulled_apart_later_are_told(self):
+        # From 0.30 m to 0.41 m and back; the cable has 0.40 m.
+        bag = self.joint_bag([0.0367 * (1 - math.cos(math.pi * i / 100)) for i in range(201)])
+        vehicle = self.RIG.replace('xyz="0.1 0 0"', 'xyz="0.281 0 0"')
+        check, replay = self.judged(bag, vehicle=vehicle, link='slider')
+        for result in (check, replay):
+            lead = result['cables']['lead']
+            self.assertAlmostEqual(lead['clamps_max'], math.hypot(0.281 + 0.0734, 0.2), 6)
+            self.assertAlmostEqual(lead['clamps_min'], math.hypot(0.281, 0.2), 6)
+            self.assertAlmostEqual(lead['clamps_max_at'], 11)
+            self.assertEqual([f['kind'] for f in result['findings']], ['clamps_too_far'])
+        # Pulled straight between clamps that point across, it turns there within an element.
+        self.assertIn('elements would do', replay['cables']['lead']['long_elements'])
+
+    def test_elements_that_are_short_enough_are_not_told(self):
+        _, replay = self.judged(self.joint_bag([0.01] * 101), vehicle=self.RIG, link='slider')
+        self.assertIsNone(replay['cables']['lead']['long_elements'])
+
+    def test_joint_beyond_its_limits_is_told(self):
+        bag = self.joint_bag([0.15 * math.sin(math.pi * i / 100) for i in range(201)])
+        for result in self.judged(bag, vehicle=self.RIG, link='slider'):
+            finding, = result['findings']
+            self.assertEqual((finding['kind'], finding['subject'], finding['topic']),
+                             ('joint_limit', "joint 'travel'", '/joint_states'))
+            self.assertAlmostEqual(finding['limit'], 0.1)
+
+    def test_findings_are_in_the_diagnostics(self):
+        bag = self.joint_bag([0.15 * math.sin(math.pi * i / 100) for i in range(301)])
+        self.judged(bag, vehicle=self.RIG, link='slider')
+        with rosbag.Bag(self.path('out.bag')) as out:
+            status = [s for _, m, _ in out.read_messages('/diagnostics') for s in m.status
+                      if s.name == 'cosserat_cable: input'][-1]
+        self.assertEqual(status.level, DiagnosticStatus.WARN)
+        self.assertIn("joint 'travel'", status.message)
+        self.assertIn("joint_limit: joint 'travel'", [pair.key for pair in status.values])
+
     # ---- Arguments.
 
     def test_unknown_option(self):
@@ -184,6 +341,102 @@ class CommandLine(unittest.TestCase):
         with open(self.path('nan.obj'), 'w') as file:
             file.write('v 0 0 0\nv 1 0 0\nv nan 1 0\nf 1 2 3\n')
         self.refused('nan.obj', **self.vehicle_with_mesh('file://' + self.path('nan.obj')))
+
+    ROCKER = ('<robot name="rover">\n<link name="body"/>\n<link name="rocker">\n%s</link>\n'
+              '<joint name="j" type="prismatic"><parent link="body"/><child link="rocker"/>\n'
+              '<axis xyz="0 0 1"/><limit effort="1" velocity="1"/></joint></robot>\n')
+    LOOM = ('format: 1\ncables:\n  - {name: loom, length: 0.6, diameter: 0.01, '
+            'mass_per_length: 0.1, EI: 0.01, GJ: 0.01, eta_EI: 1.0e-4,\n'
+            '     a: {link: body, pose: [-0.2, 0, 0.2, 0, 0.70710678, 0, 0.70710678]},\n'
+            '     b: {link: body, pose: [0.2, 0, 0.2, 0, 0.70710678, 0, 0.70710678]},\n'
+            '     %s}\n')
+
+    def rocking(self, geometry, avoid):
+        """Arguments of a replay: a loom over a link that comes up by 10 mm."""
+        with open(self.path('rover.urdf'), 'w') as file:
+            file.write(self.ROCKER % geometry)
+        with open(self.path('loom.yaml'), 'w') as file:
+            file.write(self.LOOM % avoid)
+        if not os.path.exists(self.path('rock.bag')):
+            with rosbag.Bag(self.path('rock.bag'), 'w') as bag:
+                for i in range(101):
+                    stamp = rospy.Time.from_sec(10 + 0.01 * i)
+                    message = JointState(name=['j'], position=[-0.10 + 1e-6 * i * i])
+                    message.header.stamp = stamp
+                    bag.write('/joint_states', message, stamp)
+        return {'vehicle': self.path('rover.urdf'), 'cables': self.path('loom.yaml'),
+                'bag': self.path('rock.bag')}
+
+    def replay_rocking(self, inputs):
+        output = os.path.join(self.output_folder, 'out.bag')
+        json_path = self.path('out.json')
+        code, text = run('cable_replay', '--vehicle', inputs['vehicle'], '--cables',
+                         inputs['cables'], '--bag', inputs['bag'], '--output', output, '--json',
+                         json_path)
+        self.assertEqual(code, 0, text)
+        with open(json_path) as file:
+            loom = json.load(file)['cables']['loom']
+        with rosbag.Bag(output) as bag:
+            bodies = {m.bodies for _, m, _ in bag.read_messages('/cables/loom/apex')}
+        return text, loom, bodies
+
+    BOX = '<%s><geometry><box size="0.2 2 0.2"/></geometry></%s>\n'
+
+    def test_avoided_link_without_collision(self):
+        visual = self.BOX % ('visual', 'visual')
+        inputs = self.rocking(visual, 'avoid: [rocker]')
+        self.refused("loom.yaml:6: cables[0].avoid[0]: got 'rocker', a link without <collision>",
+                     'rover.urdf:3', '{link: rocker, use_visual: true}', **inputs)
+        self.assertEqual(run('cable_modes', inputs['cables'], '--vehicle', inputs['vehicle'])[0], 2)
+        self.refused("got 'rocker', a link without <collision>", 'take the link out of `avoid`',
+                     **self.rocking('', 'avoid: [rocker]'))
+        self.refused("got 'rocker', a link without <visual>", 'leave out use_visual',
+                     **self.rocking(self.BOX % ('collision', 'collision'),
+                                    'avoid: [rocker], use_visual: true'))
+
+    def test_visual_geometry_instead_of_collision(self):
+        touched = []
+        for kind, avoid in (('collision', 'avoid: [rocker]'),
+                            ('visual', 'avoid: [rocker], use_visual: true'),
+                            ('visual', 'avoid: [{link: rocker, use_visual: true}]')):
+            text, loom, bodies = self.replay_rocking(self.rocking(self.BOX % (kind, kind), avoid))
+            self.assertEqual(bodies, {1})
+            self.assertEqual(loom['bodies'], 1)
+            touched.append(loom['clearance_min'])
+        self.assertIsNotNone(touched[0])
+        self.assertEqual(touched[1:], touched[:1] * 2)
+
+    def test_placeholder_without_extent(self):
+        geometry = '<collision><geometry><sphere radius="0"/></geometry></collision>\n'
+        inputs = self.rocking(geometry, 'avoid: [rocker]')
+        note = ("rover.urdf:4: link[rocker].collision.sphere.radius: got '0': a geometry with a "
+                'size of zero touches nothing')
+        code, text = run('cable_check', '--vehicle', inputs['vehicle'], '--cables',
+                         inputs['cables'])
+        self.assertEqual(code, 0, text)
+        self.assertIn(note, text)
+        self.assertIn('avoids nothing: no clearance is measured', text)
+        text, loom, bodies = self.replay_rocking(inputs)
+        self.assertIn(note, text)
+        self.assertIn('no body', text)
+        self.assertEqual(loom['bodies'], 0)
+        self.assertEqual(bodies, {0})
+
+    def test_depth_is_judged_against_the_radius(self):
+        geometry = self.BOX % ('collision', 'collision')
+        soft = 'avoid: [rocker], contact: {stiffness: 5}'
+        text, loom, _ = self.replay_rocking(self.rocking(geometry, soft))
+        self.assertGreater(loom['penetration_share_of_radius'], 0.05)
+        self.assertIn("sinks", text)
+        self.assertIn("into 'rocker'", text)
+        needed = loom['contact_stiffness_needed']
+        self.assertIn('contact: {stiffness: %.1e}' % needed, text)
+        for contact in ('', ', contact: {stiffness: %g}' % needed):
+            text, loom, _ = self.replay_rocking(self.rocking(geometry, 'avoid: [rocker]' + contact))
+            self.assertLess(loom['penetration_share_of_radius'], 0.05)
+            self.assertGreater(loom['penetration_max'], 0)
+            self.assertIsNone(loom['contact_stiffness_needed'])
+            self.assertNotIn('sinks', text)
 
     # ---- Recordings.
 

@@ -213,6 +213,94 @@ TEST_F(LinkMotionTest, GapsAreCounted) {
   EXPECT_FALSE(links.InGap("carrier", kStart + 100'000'000));
 }
 
+TEST_F(LinkMotionTest, AConstantTransformThatIsSentSlowlyHasNoGaps) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 5; ++i) {
+    links.Ingest(Transform("world", "odom", kStart + i * 1'000'000'000, BodyPose(1)), false);
+    Drive(&links, kStart + i * 1'000'000'000, 100);
+  }
+  links.Finish();
+  EXPECT_EQ(links.gap_count(), 0u);
+  EXPECT_FALSE(links.InGap("carrier", kStart + 500'000'000));
+}
+
+TEST_F(LinkMotionTest, ASlowTransformThatMovesHasGaps) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 5; ++i) {
+    links.Ingest(Transform("world", "odom", kStart + i * 1'000'000'000, BodyPose(i)), false);
+    Drive(&links, kStart + i * 1'000'000'000, 100);
+  }
+  links.Finish();
+  EXPECT_EQ(links.gap_count(), 4u);
+  EXPECT_TRUE(links.InGap("carrier", kStart + 500'000'000));
+}
+
+TEST_F(LinkMotionTest, FindsTheFrameBelowALocalisation) {
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 200);
+  for (int i = 0; i < 20; ++i) {
+    Pose corrected;
+    corrected.p.x() = i < 10 ? 7 : 7.1;
+    links.Ingest(Transform("map", "odom", kStart + i * 100'000'000, corrected), false);
+  }
+  EXPECT_EQ(links.world(), "map");
+  EXPECT_EQ(links.SmoothWorld(), "odom");
+  const Findings findings = links.MotionFindings(links.world());
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].subject, "map -> odom");
+  EXPECT_EQ(findings[0].topic, "/tf");
+  EXPECT_EQ(findings[0].worst, kStart + 1'000'000'000);
+}
+
+TEST_F(LinkMotionTest, WhatTheUserTakesAsInertialIsNotJudgedFromAbove) {
+  options_.world_frame = "odom";
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 200);
+  for (int i = 0; i < 20; ++i) {
+    Pose corrected;
+    corrected.p.x() = i < 10 ? 7 : 7.1;
+    links.Ingest(Transform("map", "odom", kStart + i * 100'000'000, corrected), false);
+  }
+  EXPECT_EQ(links.SmoothWorld(), "odom");
+  EXPECT_TRUE(links.MotionFindings("odom").empty());
+}
+
+TEST_F(LinkMotionTest, SmoothedLinksFollowTheSameMotion) {
+  options_.smooth = 30;
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 400);
+  links.Finish();
+  std::int64_t begin = 0, ready = 0;
+  ASSERT_TRUE(links.Range(&begin, &ready));
+  EXPECT_EQ(begin, kStart);
+  EXPECT_EQ(ready, kStart + 399 * kPeriod);
+  // 20 rad/s at a cutoff of 30 Hz: (1 + u) exp(-u) is short of 1 by u^2 / 2, u = 0.012.
+  constexpr double kLost = 1e-4;
+  for (double t = 1; t < 3; t += 0.0137) {
+    const Motion motion = links.Evaluate("base", kStart + static_cast<std::int64_t>(t * 1e9));
+    EXPECT_LT((motion.X.p - BodyPose(t).p).norm(), kLost);
+    EXPECT_NEAR(motion.v.x(), 15, 0.01);
+  }
+}
+
+TEST_F(LinkMotionTest, TwoPublishersOfAJointAreTold) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 200; ++i) {
+    const std::int64_t stamp = kStart + i * kPeriod;
+    const double t = 1e-9 * static_cast<double>(i * kPeriod);
+    links.Ingest(Transform("odom", "base", stamp, BodyPose(t)), false, "/odometry");
+    links.Ingest(Joints(stamp, Travel(t)), "/driver");
+    if (i % 10 == 5) links.Ingest(Joints(stamp + kPeriod / 4, 0), "/joint_state_publisher");
+  }
+  bool told = false;
+  for (const Finding& finding : links.MotionFindings("odom")) {
+    if (finding.kind != "two_publishers" || finding.subject != "joint 'travel'") continue;
+    told = true;
+    EXPECT_NE(finding.what.find("/joint_state_publisher"), std::string::npos);
+  }
+  EXPECT_TRUE(told);
+}
+
 TEST_F(LinkMotionTest, LeadingSlashesOfOldRecordingsAreDropped) {
   LinkMotion links(vehicle_, needed_, options_);
   links.Ingest(Transform("/odom", "/base", kStart, Pose()), false);

@@ -43,9 +43,17 @@ struct LumpedMassKey {
   SourceMark s_mark;
 };
 
+/// A link to avoid.
 struct LinkKey {
   std::string name;
   SourceMark mark;
+  std::optional<bool> use_visual;  ///< nothing: as the cable says
+};
+
+/// The law of contact; what is not given follows from the cable, or is ContactLaw's.
+struct ContactKey {
+  std::optional<double> stiffness;
+  double smoothing = ContactLaw().smoothing, damping = ContactLaw().damping;
 };
 
 struct UncertainKey {
@@ -70,7 +78,8 @@ struct CableKeys {
   CableKey<std::vector<UncertainKey>> uncertain;
   CableKey<int> elements;
   CableKey<std::vector<LinkKey>> avoid;
-  CableKey<ContactLaw> contact;
+  CableKey<bool> use_visual;
+  CableKey<ContactKey> contact;
   CableKey<std::vector<ExtensionKey>> extensions;
 
   /// Takes from `other` what is not given here. A pair is taken or left as a whole,
@@ -91,6 +100,7 @@ std::string WriteCableKeys(const CableKeys& keys, const std::string& indent);
 ///
 /// Defaults (eqs. 9 and 10 of the source paper): EA = 16 min(EI1, EI2)/d^2, GA = EA/3,
 /// eta_EA = (4 L/pi) sqrt(rhoA EA), eta_GJ = (4 L/pi) sqrt(rhoJ GJ), eta_GA = 2 sqrt(rhoI GA).
+/// The stiffness of contact as DefaultContactStiffness has it, of a cable without clamps.
 CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problems* problems);
 
 }  // namespace cosserat_cable

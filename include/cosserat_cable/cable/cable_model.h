@@ -1,6 +1,7 @@
 // What a cable is: one YAML schema, version 1, read by every tool.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -44,7 +45,8 @@ struct CableModel {
 
   double apex_s = 0;  ///< material point whose motion is reported [m], default L/2
   int elements = 40;
-  std::vector<std::string> avoid;  ///< links whose collision geometry the cable may touch
+  std::vector<std::string> avoid;      ///< links whose collision geometry the cable may touch
+  std::set<std::string> avoid_visual;  ///< those of them whose visual geometry counts instead
   ContactLaw contact;
   std::vector<CableExtension> extensions;  ///< physics beyond the Kelvin-Voigt rod; default none
   std::vector<std::string>

@@ -32,7 +32,7 @@ struct StepOutcome {
 
 /// One place where the cable presses on a body.
 struct ContactPoint {
-  int obstacle = 0;                     ///< index of the body
+  int obstacle = -1;                    ///< index of the body; -1: no contact
   double s = 0;                         ///< arc length [m]
   Eigen::Vector3d position_W, force_W;  ///< on the cable's surface [m]; on the cable [N]
   double penetration = 0;               ///< [m]
@@ -85,6 +85,8 @@ class CableSimulation {
   /// Magnitude of the bending curvature in each element [1/m], `elements` values.
   std::vector<double> curvatures() const;
   std::vector<ContactPoint> contacts() const;
+  /// The one that is deepest.
+  ContactPoint DeepestContact() const;
   /// Natural modes about the present configuration, where Settle has found it: clamps and bodies
   /// stay, the latter push back where they are touched. See rod/modes.h, also for errors thrown.
   std::vector<rod::Mode> FindModes(int count) const;

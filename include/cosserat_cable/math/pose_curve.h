@@ -29,6 +29,7 @@
 #include <optional>
 #include <vector>
 
+#include "cosserat_cable/math/gap_rule.h"
 #include "cosserat_cable/math/motion_between.h"
 #include "cosserat_cable/math/pose.h"
 
@@ -75,7 +76,8 @@ class PoseCurve {
   /// times there cheap.
   Motion Follow(double time);
 
-  /// True where `time` lies between two samples farther apart than `max_gap`.
+  /// True where `time` lies between two samples farther apart than `max_gap`, unless the edge
+  /// stands still there as always, see GapRule.
   bool InGap(double time) const;
   /// Number of gaps so far, dropped ones included.
   std::size_t gap_count() const { return gap_count_; }
@@ -92,6 +94,7 @@ class PoseCurve {
     bool known = false;        ///< whether they were, since the knot is final
     bool hole_before = false;  ///< also true for a gap
     bool gap_before = false;
+    bool still_before = false;  ///< a gap across which nothing was to move
   };
 
   /// The knots [begin, end) on which a knot's derivatives depend.
@@ -116,6 +119,7 @@ class PoseCurve {
   std::deque<Knot> knots_;
   int final_count_ = 0;  ///< leading knots that are final
   bool finished_ = false;
+  GapRule gap_rule_;
   std::size_t gap_count_ = 0;
   std::size_t ignored_count_ = 0;
 

@@ -41,7 +41,9 @@ struct ApexVerdict {
 /// cubics through positions and velocities: 200 Hz is coarse for 40 Hz.
 double PeakToPeak(const std::vector<ApexTelemetry>& messages, char axis);
 
-/// Judges messages in the order of their stamps. No message in the window is a violation.
+/// Judges messages in the order of their stamps. These are violations, too: no message in the
+/// window, telemetry that ends long before it, no bound at all, and a bound on clearance or contact
+/// of a cable that has nothing to touch.
 /// @param comparison another run's messages, where max_rms_difference is asked for
 ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
                   const std::vector<ApexTelemetry>& comparison, const ApexBounds& bounds);

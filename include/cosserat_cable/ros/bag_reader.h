@@ -27,6 +27,9 @@ struct BagMessage {
   boost::shared_ptr<tf2_msgs::TFMessage> tf;
   bool is_static = false;
   boost::shared_ptr<sensor_msgs::JointState> joints;
+
+  /// The node that published it; "" where the recording does not say.
+  const std::string& publisher() const;
 };
 
 class BagFile;

@@ -7,7 +7,9 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cosserat_cable/cable/cable_fleet.h"
@@ -36,6 +38,7 @@ struct EngineOptions {
   std::string dump_directory = ".";  ///< where a failed cable's state is written
   int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
+  Findings known;  ///< of the recording, where it was judged before; told along with the run's own
 
   /// Takes `gravity` over into gravity_W; what is wrong with it is a problem.
   void ApplyGravity(Problems* problems);
@@ -43,11 +46,14 @@ struct EngineOptions {
   std::vector<std::string> Check() const;
 };
 
-/// Collision geometry by link.
-using BodyMap = std::map<std::string, std::unique_ptr<Body>>;
+/// Geometry by link, and by whether it is the visual instead of the collision geometry.
+using BodyMap = std::map<std::pair<std::string, bool>, std::unique_ptr<Body>>;
 
-/// The bodies of all links with collision shapes. `threads`: see EngineOptions.
+/// The bodies of all links with shapes. `threads`: see EngineOptions.
 BodyMap MakeBodies(const VehicleModel& vehicle, int threads);
+
+/// What `cable` is kept clear of at a link of its `avoid`; null where that has no extent.
+const Body* FindBody(const BodyMap& bodies, const CableModel& cable, const std::string& link);
 
 /// Links whose motion the cables need: clamps, references, and those to avoid; each once.
 std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables);
@@ -60,8 +66,10 @@ class CableEngine {
               const std::vector<CableModel>& cables, EngineOptions options);
   ~CableEngine();
 
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static);
-  void Ingest(const sensor_msgs::JointState& message);
+  /// `publisher`: the node's name.
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
+              const std::string& publisher = "");
+  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "");
   /// No more samples will come: Advance then goes up to the last.
   void Finish();
 
@@ -79,6 +87,8 @@ class CableEngine {
   bool AnyFailed() const;
   /// Sentences to be said to the user, each once.
   std::vector<std::string> TakeNews();
+  /// What cannot be, of the recording, the samples and the cables' clamps, until now.
+  Findings AllFindings() const;
   /// Wall time and memory are the caller's to fill in.
   Summary MakeSummary() const;
 
@@ -100,6 +110,7 @@ class CableEngine {
   void MeasureClearances();
   void TakeMeasured();
   void TellDiagnostics();
+  void TellFindings(const Findings& findings);
   void Deliver(OutputSink* sink);
   bool Due(std::int64_t period, std::int64_t time) const;
   std::size_t FrameIndex(const std::string& link) const;
@@ -123,6 +134,7 @@ class CableEngine {
   std::uint64_t seen_clears_ = 0;
   std::uint64_t resets_ = 0;
   std::vector<std::string> news_;
+  std::set<std::string> told_findings_;
 };
 
 }  // namespace cosserat_cable

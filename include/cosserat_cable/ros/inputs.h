@@ -19,6 +19,7 @@ struct InputPaths {
   std::vector<std::string> bags;  ///< may be empty
   double start = 0;               ///< after the first bag's begin [s]
   double duration = 0;            ///< [s]; 0: to the end
+  bool follow_clamps = false;     ///< through the whole recording, not only at its first instant
 };
 
 /// What the bags will do to the cables.
@@ -31,6 +32,9 @@ struct BagSurvey {
   std::uint64_t gaps = 0;
   std::int64_t first_step = 0;     ///< when all links are known [ns]
   std::vector<double> chords;      ///< between each cable's clamps at that time [m]
+  std::string topmost;             ///< the frame above all, where another one is the inertial frame
+  std::vector<ClampJudge> clamps;  ///< of each cable, where they were followed
+  Findings findings;               ///< what the recording says that cannot be
   std::vector<std::string> notes;  ///< what the user may want to set otherwise
 };
 
@@ -40,7 +44,7 @@ struct Inputs {
   BodyMap bodies;  ///< of the links that cables avoid
   std::unique_ptr<BagReader> bags;
   std::optional<BagSurvey> survey;  ///< where the bags could be followed
-  int triangles = 0;                ///< of all collision meshes that cables avoid
+  int triangles = 0;                ///< of all meshes that cables avoid
 };
 
 /// The options that name topics, frames or gravity, as they were given: " --gravity 0,0,9.81".
@@ -48,6 +52,9 @@ std::string SharedOptionsText(const EngineOptions& options);
 
 /// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems);
+
+/// What the user may want to set or draw otherwise, of vehicle and recording.
+std::vector<std::string> Notes(const Inputs& inputs);
 
 /// For `cable_check`: cables, bags, and which frame is driven by what.
 std::string Describe(const Inputs& inputs, const EngineOptions& options);

@@ -11,13 +11,17 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/math/gap_rule.h"
 #include "cosserat_cable/ros/motion_topics.h"
 #include "cosserat_cable/ros/warnings.h"
+#include "cosserat_cable/vehicle/edge_smoother.h"
 #include "cosserat_cable/vehicle/motion_tree.h"
+#include "cosserat_cable/vehicle/recording_judge.h"
 #include "cosserat_cable/vehicle/vehicle_model.h"
 
 namespace cosserat_cable {
@@ -30,6 +34,8 @@ struct LinkMotionOptions {
   /// "rover1/", "rover1_" as it is. Empty: nothing.
   std::string tf_prefix;
   double max_gap = 0.25;  ///< [s], see PoseCurve
+  double smooth = 0;      ///< cutoff [Hz], see EdgeSmoother; 0: none
+  bool judge = true;      ///< whether the samples are judged, see Findings
 };
 
 class LinkMotion {
@@ -43,9 +49,15 @@ class LinkMotion {
     std::uint64_t samples = 0;
     std::int64_t first = 0, last = 0;   ///< stamps [ns]
     std::int64_t longest_interval = 0;  ///< between two samples [ns]
-    std::uint64_t gaps = 0;             ///< intervals longer than max_gap
+    std::uint64_t gaps = 0;             ///< intervals longer than max_gap, see GapRule
+    bool moves = false;                 ///< whether any two samples differ
     bool is_followed = false;           ///< whether a link depends on it
     MotionTree::Edge samples_of;        ///< where they are kept, once there are any
+
+    Pose last_pose;
+    GapRule gap_rule;
+    RecordingJudge::Edge* judged = nullptr;
+    EdgeSmoother* smoother = nullptr;
   };
 
   /// `links`: those whose motion will be asked for. `vehicle` outlives this.
@@ -54,9 +66,10 @@ class LinkMotion {
 
   /// A sample that is older than its edge's last by more than half a second says that time ran
   /// backwards: all samples are forgotten, `clear_count` grows, and the sample is the first of the
-  /// new run. Samples that cannot be used are counted in `warnings`.
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static);
-  void Ingest(const sensor_msgs::JointState& message);
+  /// new run. Samples that cannot be used are counted in `warnings`. `publisher`: the node's name.
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
+              const std::string& publisher = "");
+  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "");
   /// No more samples will come.
   void Finish();
   /// Forgets all samples; the tree's edges stay.
@@ -67,6 +80,12 @@ class LinkMotion {
   const std::string& world() const { return world_; }
   /// What to do about names and stamps that do not fit, one sentence each.
   std::vector<std::string> Advice() const;
+  /// What the samples so far say that cannot be, of the edges that links depend on. `world`: the
+  /// inertial frame that is taken.
+  Findings MotionFindings(const std::string& world) const;
+  /// The inertial frame to be taken: world(), or a frame below it where a localisation corrects the
+  /// frames above that one, see RecordingJudge.
+  std::string SmoothWorld() const;
   /// Why links cannot be followed from world() yet, one sentence each. Empty: all edges are driven.
   std::vector<std::string> Missing() const;
 
@@ -111,7 +130,14 @@ class LinkMotion {
   void AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                 Source source);
   void AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
-                 const Pose& X_PC, Source source);
+                 const Pose& X_PC, Source source, const double* position = nullptr);
+  void Judge(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC,
+             const double* position);
+  void Deliver(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC);
+  void JudgeRejected(const std::string& parent, const std::string& child, std::int64_t stamp,
+                     const Pose& X_PC);
+  void SetPublisher(const std::string& name, Source source);
+  RecordingJudge::Way WayAboveVehicle() const;
   /// The edge, made where it is new; null where this source does not count for it.
   Edge* AcceptSource(const std::string& parent, const std::string& child, Source source);
   void IngestJoint(const JointModel& joint, double position, std::int64_t stamp);
@@ -132,6 +158,12 @@ class LinkMotion {
 
   std::map<std::string, Unstamped> unstamped_;  // by child
   std::set<std::string> unknown_joints_;
+
+  std::optional<RecordingJudge> judge_;
+  std::string publisher_;
+  Source publisher_source_ = Source::kUrdf;
+  int publisher_number_ = -1;
+  std::map<std::string, EdgeSmoother> smoothers_;  // by child
 
   MotionTree tree_;
   std::vector<MotionTree::Link> followed_;  // links_ as seen from world_, once asked for

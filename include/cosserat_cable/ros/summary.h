@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/vehicle/clamp_judge.h"
+#include "cosserat_cable/vehicle/finding.h"
+
 namespace cosserat_cable {
 
 struct CableSummary {
@@ -19,10 +22,25 @@ struct CableSummary {
   double clearance_min = std::numeric_limits<double>::infinity();  ///< [m]
   double contact_force_max = 0;                                    ///< [N]
   double tension_max = 0;                                          ///< [N]
-  double amplitude_max = 0;    ///< peak to peak over the window [m]
-  double dissipated = 0;       ///< since the cable last settled [J]
-  double energy_residual = 0;  ///< what the energy balance lacks [J]
-  std::string failure;         ///< empty while all is well
+  double amplitude_max = 0;           ///< peak to peak over the window [m]
+  double dissipated = 0;              ///< since the cable last settled [J]
+  double energy_residual = 0;         ///< what the energy balance lacks [J]
+  double kinetic_max = 0;             ///< kinetic energy, of the cable's travel with its clamps [J]
+  std::size_t bodies = 0;             ///< that it is kept clear of; 0: no clearance is measured
+  double radius = 0;                  ///< [m]
+  double contact_stiffness = 0;       ///< [N/m]
+  double penetration_max = 0;         ///< of the radius into a body, over all steps [m]
+  std::int64_t penetration_time = 0;  ///< when [ns]
+  double penetration_s = 0;           ///< where along the cable [m]
+  std::string penetration_body;       ///< the link; empty where nothing was touched
+  double stiffness_needed =
+      0;                      ///< where that was too deep: a contact stiffness that would do [N/m]
+  std::string long_elements;  ///< see TooLongElements; empty where they are short enough
+  std::string failure;        ///< empty while all is well
+  ClampJudge::Range clamps;   ///< how they moved to one another
+
+  /// How deep the cable sank and what to do; "" where it was not too deep.
+  std::string DepthWarning() const;
 };
 
 struct Summary {
@@ -35,7 +53,9 @@ struct Summary {
   double peak_memory = 0;                               ///< resident [bytes]
   std::uint64_t resets = 0;                             ///< time ran backwards
   std::uint64_t gaps = 0;                               ///< of the input
+  double smooth = 0;  ///< cutoff of the links' motion [Hz]; 0: none
   std::map<std::string, std::uint64_t> warnings;
+  Findings findings;  ///< what the input says that cannot be
   std::vector<CableSummary> cables;
 
   double real_time_factor() const { return wall_time > 0 ? simulated_time / wall_time : 0; }

@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,7 +16,8 @@
 namespace cosserat_cable {
 
 struct JointModel {
-  enum class Type { kFixed, kRevolute, kPrismatic, kFloating };  ///< continuous counts as revolute
+  /// Continuous counts as revolute; planar as floating: no one number says where it is.
+  enum class Type { kFixed, kRevolute, kPrismatic, kFloating };
   std::string name, parent, child;
   Type type = Type::kFixed;
   Pose X_PJ;  ///< of the child at position zero, in the parent
@@ -36,25 +38,44 @@ struct JointModel {
   Pose Evaluate(double position) const;
 };
 
+/// What a link's entry in the URDF has to touch.
+struct LinkEntry {
+  int line = 0;
+  int collisions = 0, visuals = 0;  ///< elements, also such without extent
+};
+
 struct VehicleModel {
   std::string name;
-  std::string root;                ///< the root link
-  std::vector<std::string> links;  ///< in the file's order
-  std::vector<JointModel> joints;  ///< in the file's order
-  /// By link; only those of `collision_links` that have collision geometry.
+  std::string root;                          ///< the root link
+  std::vector<std::string> links;            ///< in the file's order
+  std::vector<JointModel> joints;            ///< in the file's order
+  std::map<std::string, LinkEntry> entries;  ///< by link
+  /// By link; only those of `collision_links` that have collision geometry with an extent.
   std::map<std::string, std::vector<Shape>> collision;
+  std::map<std::string, std::vector<Shape>> visual;  ///< likewise, of VehicleUse::visual_links
+  Problems notes;                                    ///< what is worth knowing, and stops nothing
 
   const JointModel* FindJoint(const std::string& name) const;  ///< null where there is none
   bool HasLink(const std::string& name) const;
 };
 
+/// What cables use of a vehicle besides its collision geometry.
+struct VehicleUse {
+  std::vector<std::string> visual_links;  ///< whose visual geometry they may touch
+  /// Whose motion they follow; the joints above these are judged, others only as far as urdfdom
+  /// does. Nothing: all.
+  std::optional<std::vector<std::string>> moving_links;
+};
+
 /// Reads a URDF file. Collision meshes are loaded for the links in `collision_links` only (unknown
 /// names are ignored here: the caller knows where they were written). Every mistake goes to
-/// `problems` with file and line: malformed XML, an unknown joint type (planar ones included), a
-/// number that is none, a size that is not positive, a zero axis, links that do not form one tree,
-/// a mesh that is missing or has NaN vertices, a package that cannot be found. After a mistake
-/// other than in a mesh the vehicle holds the names of its links alone.
+/// `problems` with file and line: malformed XML, an unknown joint type, a
+/// number that is none, a zero axis, links that do not form one tree; of geometry that is used a
+/// negative size, a mesh that is missing or has NaN vertices, a package that cannot be found. A
+/// size of zero is noted where it is used. After a mistake other than in a mesh the vehicle holds
+/// its links' names and entries alone.
 VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>& collision_links,
-                         const PackageFinder& find_package, Problems* problems);
+                         const PackageFinder& find_package, Problems* problems,
+                         const VehicleUse& use = {});
 
 }  // namespace cosserat_cable

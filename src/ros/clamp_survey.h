@@ -1,0 +1,23 @@
+// How cables' clamps move to one another through a whole recording, without simulating anything.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cosserat_cable/ros/bag_reader.h"
+#include "cosserat_cable/ros/cable_engine.h"
+#include "cosserat_cable/vehicle/clamp_judge.h"
+
+namespace cosserat_cable {
+
+/// Hands a recorded message on.
+void Feed(const BagMessage& message, LinkMotion* links);
+
+/// The clamps of each cable at the instants of telemetry, as a run judges them. `from`, `to`: times
+/// of recording [ns].
+std::vector<ClampJudge> FollowClamps(const BagReader& bags, std::int64_t from, std::int64_t to,
+                                     const VehicleModel& vehicle,
+                                     const std::vector<CableModel>& cables,
+                                     const EngineOptions& options);
+
+}  // namespace cosserat_cable

@@ -1,0 +1,309 @@
+#include "cosserat_cable/vehicle/edge_judge.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat_cable/math/rotation.h"
+#include "motion_channel.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Cables answer to less than some 50 Hz; samples closer together than this are thinned out [s].
+constexpr double kBase = 0.008;
+constexpr std::uint64_t kIntervalsToKnowTheRate = 8;
+// A part of the blocks that is smaller is an event and no habit of the recording.
+constexpr std::uint64_t kLeastBlocks = 2;
+constexpr double kLeastShare = 0.05;
+// An event that is no larger than this, in the largest acceleration of rough samples, is one of
+// them.
+constexpr double kFarBeyond = 3;
+// Rounding of poses that do not move [m], [rad].
+constexpr double kStill = 1e-6;
+// What smoothing may leave of the noise [m/s^2], [rad/s^2]: little beside gravity.
+constexpr double kTolerableNoise = 0.5;
+
+// Translations in m and m/s^2. A corrected frame has no business to move suddenly at all. A body
+// that moves and stops within one interval at 2 g has no mass; a wheel's carrier can take 10 g.
+// Crashes have 50 g, wheel carriers on bad roads 100; twice that is no recording of a vehicle.
+MotionLimits TranslationLimits(EdgeRole role) {
+  switch (role) {
+    case EdgeRole::kAboveVehicle:
+      return {1e-3, 0.1, 0.5, 0.5, 500};
+    case EdgeRole::kBody:
+      return {5e-3, 20, 5, 2, 500};
+    case EdgeRole::kJoint:
+      break;
+  }
+  return {5e-3, 100, 10, 5, 2000};
+}
+
+// Rotations in rad and rad/s^2: the same at half a metre from the axis.
+MotionLimits RotationLimits(EdgeRole role) {
+  switch (role) {
+    case EdgeRole::kAboveVehicle:
+      return {0.5e-3, 0.1, 1, 1, 1000};
+    case EdgeRole::kBody:
+      return {10e-3, 40, 10, 4, 1000};
+    case EdgeRole::kJoint:
+      break;
+  }
+  return {20e-3, 200, 20, 10, 4000};
+}
+
+// The rotation from one pose to the next, in the first one's axes.
+Eigen::Vector3d Turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const Eigen::Quaterniond turn = from.conjugate() * to;
+  constexpr double kSmall = 0.05;  // half the sine: the series is good to 1e-6 of it
+  const double sine = turn.vec().squaredNorm();
+  if (sine > kSmall * kSmall) return RotationLog(turn);
+  return std::copysign(2 * (1 + sine / 6), turn.w()) * turn.vec();
+}
+
+bool IsHabit(const MotionChannel::Tally& tally, std::uint64_t blocks) {
+  return tally.count >= kLeastBlocks &&
+         static_cast<double>(tally.count) >= kLeastShare * static_cast<double>(blocks);
+}
+
+// A frequency as people write it, at or below `value` [Hz].
+double RoundFrequency(double value) {
+  constexpr double kNearly = 1.02;  // 19.9 is 20
+  const double decade = std::pow(10, std::floor(std::log10(kNearly * value)));
+  const double leading = kNearly * value / decade;
+  return decade * (leading >= 5 ? 5 : leading >= 2 ? 2 : 1);
+}
+
+}  // namespace
+
+struct EdgeJudge::Impl {
+  Impl(EdgeRole the_role, double max_gap)
+      : role(the_role),
+        longest(max_gap),
+        translation(TranslationLimits(role), max_gap),
+        rotation(RotationLimits(role), max_gap) {}
+
+  EdgeRole role;
+  double longest;
+  MotionChannel translation, rotation;
+  bool moves = false;
+
+  struct Sample {
+    std::int64_t stamp = 0;
+    Pose X;
+  };
+  bool has_last = false;
+  Sample last, last_kept;
+  double period_sum = 0;
+  std::uint64_t periods = 0;
+  int stride = 0;  // 0: not known yet
+  int since_kept = 0;
+
+  static double Seconds(std::int64_t from, std::int64_t to) {
+    return static_cast<double>(to - from) * 1e-9;
+  }
+  double period() const { return periods > 0 ? period_sum / static_cast<double>(periods) : 0; }
+  void Add(const Sample& sample);
+  void Keep(const Sample& sample);
+
+  /// The channel in which the tally is the farthest beyond `limit`; null where there is none.
+  template <class Count, class Excess>
+  const MotionChannel* Worse(const Count& count, const Excess& excess) const {
+    const MotionChannel* worse = nullptr;
+    for (const MotionChannel* channel : {&translation, &rotation})
+      if (count(*channel) && (!worse || excess(*channel) > excess(*worse))) worse = channel;
+    return worse;
+  }
+  const char* Unit(const MotionChannel* channel) const {
+    return channel == &translation ? "m" : "rad";
+  }
+  /// Whether what makes all samples rough explains this event too.
+  bool IsExplained(const MotionChannel& channel, double acceleration) const;
+  Finding Start(const char* kind, const MotionChannel::Tally& tally) const;
+  void ReportJumps(Findings* findings) const;
+  void ReportAccelerations(Findings* findings) const;
+  void ReportLateness(Findings* findings) const;
+  void ReportNoise(Findings* findings) const;
+};
+
+EdgeJudge::EdgeJudge(EdgeRole role, double max_gap)
+    : impl_(std::make_unique<Impl>(role, max_gap)) {}
+EdgeJudge::~EdgeJudge() = default;
+EdgeJudge::EdgeJudge(EdgeJudge&&) noexcept = default;
+EdgeJudge& EdgeJudge::operator=(EdgeJudge&&) noexcept = default;
+
+EdgeRole EdgeJudge::role() const { return impl_->role; }
+bool EdgeJudge::moves() const { return impl_->moves; }
+
+bool EdgeJudge::MovesByJumps() const {
+  const MotionChannel& p = impl_->translation;
+  const MotionChannel& q = impl_->rotation;
+  return p.MovesByJumps() || q.MovesByJumps();
+}
+
+void EdgeJudge::Restart() {
+  impl_->has_last = false;
+  impl_->stride = 0;
+  impl_->period_sum = 0;
+  impl_->periods = 0;
+  impl_->translation.Restart();
+  impl_->rotation.Restart();
+}
+
+void EdgeJudge::Add(std::int64_t stamp, const Pose& X_PC) { impl_->Add({stamp, X_PC}); }
+
+void EdgeJudge::Impl::Add(const Sample& sample) {
+  if (has_last) {
+    const double h = Seconds(last.stamp, sample.stamp);
+    const Eigen::Vector3d d = sample.X.p - last.X.p;
+    const Eigen::Vector3d turn = Turn(last.X.q, sample.X.q);
+    moves = moves || d.squaredNorm() > kStill * kStill || turn.squaredNorm() > kStill * kStill;
+    if (h <= longest) {
+      period_sum += h;
+      ++periods;
+    }
+    translation.AddRaw(d, h, sample.stamp);
+    rotation.AddRaw(turn, h, sample.stamp);
+    Keep(sample);
+  }
+  last = sample;
+  has_last = true;
+}
+
+// Every so manieth sample: counted, not timed, for the stamps themselves are judged.
+void EdgeJudge::Impl::Keep(const Sample& sample) {
+  if (stride == 0) {
+    const bool slow = periods == 0;  // nothing but gaps: every sample counts
+    if (!slow && periods < kIntervalsToKnowTheRate) return;
+    stride = slow ? 1 : std::max(1, static_cast<int>(std::lround(kBase / period())));
+    if (slow) {
+      last_kept = last;
+    } else {
+      last_kept = sample;
+      since_kept = 0;
+      return;
+    }
+  }
+  if (++since_kept < stride) return;
+  since_kept = 0;
+  const double h = Seconds(last_kept.stamp, sample.stamp);
+  translation.Add(sample.X.p - last_kept.X.p, h, sample.stamp);
+  rotation.Add(Turn(last_kept.X.q, sample.X.q), h, sample.stamp);
+  last_kept = sample;
+}
+
+Finding EdgeJudge::Impl::Start(const char* kind, const MotionChannel::Tally& tally) const {
+  Finding finding;
+  finding.kind = kind;
+  finding.count = tally.count;
+  finding.first = tally.first;
+  finding.worst = tally.worst;
+  finding.size = tally.size;
+  return finding;
+}
+
+bool EdgeJudge::Impl::IsExplained(const MotionChannel& channel, double acceleration) const {
+  double usual = 0;
+  for (const MotionChannel::Tally* rough : {&channel.lateness(), &channel.noise()})
+    if (IsHabit(*rough, channel.blocks())) usual = std::max(usual, rough->acceleration);
+  return acceleration < kFarBeyond * usual;
+}
+
+void EdgeJudge::Impl::ReportJumps(Findings* findings) const {
+  const MotionChannel* channel = Worse(
+      [this](const auto& c) {
+        return c.jumps().count > 0 && !IsExplained(c, c.jumps().acceleration);
+      },
+      [](const auto& c) { return c.jumps().size / c.limits().jump; });
+  if (!channel) return;
+  Finding finding = Start("jump", channel->jumps());
+  finding.limit = channel->limits().jump;
+  finding.unit = Unit(channel);
+  const std::string size = channel == &translation ? Printed("%.3g mm", 1e3 * finding.size)
+                                                   : Printed("%.3g deg", finding.size * 180 / M_PI);
+  finding.what = finding.count == 1
+                     ? "jumps by " + size
+                     : "jumps " + std::to_string(finding.count) + " times, by up to " + size;
+  finding.what += " from one sample to the next (" +
+                  Printed("%.3g ", channel->jumps().acceleration) + finding.unit + "/s^2)";
+  finding.remedy =
+      role == EdgeRole::kJoint
+          ? "was its encoder reset, or are these outliers? cut the recording there (--start, "
+            "--duration), or use --smooth HZ"
+          : "is the pose reset, or corrected by a localisation? record a frame that moves smoothly";
+  findings->push_back(std::move(finding));
+}
+
+void EdgeJudge::Impl::ReportAccelerations(Findings* findings) const {
+  // A jump is an acceleration too: it is told once.
+  const MotionChannel* channel = Worse(
+      [this](const auto& c) {
+        return c.accelerations().count > 0 && c.jumps().count == 0 &&
+               !IsExplained(c, c.accelerations().acceleration);
+      },
+      [](const auto& c) { return c.accelerations().size / c.limits().acceleration; });
+  if (!channel) return;
+  Finding finding = Start("acceleration", channel->accelerations());
+  finding.limit = channel->limits().acceleration;
+  finding.unit = Unit(channel) + std::string("/s^2");
+  finding.what = "accelerates by up to " + Printed("%.3g ", finding.size) + finding.unit +
+                 " between samples (" + std::to_string(finding.count) + " times more than " +
+                 Printed("%g)", finding.limit);
+  finding.remedy = "are these outliers? take them out of the recording, or --smooth HZ";
+  findings->push_back(std::move(finding));
+}
+
+void EdgeJudge::Impl::ReportLateness(Findings* findings) const {
+  const MotionChannel* channel =
+      Worse([](const auto& c) { return IsHabit(c.lateness(), c.blocks()); },
+            [](const auto& c) { return c.lateness().size / c.limits().lateness; });
+  if (!channel) return;
+  Finding finding = Start("late_stamps", channel->lateness());
+  finding.limit = channel->limits().lateness;
+  finding.unit = Unit(channel) + std::string("/s^2");
+  finding.what = "accelerates by up to " + Printed("%.3g ", channel->lateness().acceleration) +
+                 finding.unit + " between samples (" + Printed("%.3g", finding.size) +
+                 " rms), and is smooth where its samples are counted out evenly: its stamps are "
+                 "late by 0 to " +
+                 Printed("%.2g ms", 1e3 * channel->worst_lateness());
+  finding.remedy = "stamp poses when they are measured, or use --smooth " +
+                   Printed("%g", RoundFrequency(0.2 / period())) +
+                   ", which puts them back on a steady clock";
+  findings->push_back(std::move(finding));
+}
+
+void EdgeJudge::Impl::ReportNoise(Findings* findings) const {
+  const MotionChannel* channel =
+      Worse([](const auto& c) { return IsHabit(c.noise(), c.blocks()); },
+            [](const auto& c) { return c.noise().size / c.limits().noise; });
+  if (!channel) return;
+  Finding finding = Start("noise", channel->noise());
+  finding.limit = channel->limits().noise;
+  finding.unit = Unit(channel) + std::string("/s^2");
+  finding.what = "accelerates by " + Printed("%.3g ", finding.size) + finding.unit +
+                 " rms back and forth from sample to sample";
+  // White noise of positions, sigma^2 = a^2 h^4 / 6 in each sample, below a cutoff f:
+  //   a_left = (2 pi)^2 f^2.5 sigma sqrt(2 h / 5).
+  const double h = period() * std::max(stride, 1);
+  const double sigma = finding.size * h * h / std::sqrt(6.0);
+  const double all =
+      std::pow(kTolerableNoise / (4 * M_PI * M_PI * sigma * std::sqrt(0.4 * h)), 0.4);
+  finding.remedy =
+      "is it noise, are its stamps late, or does it vibrate faster than it was sampled? --smooth " +
+      Printed("%g", RoundFrequency(std::min(all, 0.2 / period()))) + " leaves little of it";
+  findings->push_back(std::move(finding));
+}
+
+Findings EdgeJudge::Report(const std::string& subject, const std::string& topic) const {
+  Findings findings;
+  impl_->ReportJumps(&findings);
+  impl_->ReportAccelerations(&findings);
+  impl_->ReportLateness(&findings);
+  impl_->ReportNoise(&findings);
+  for (Finding& finding : findings) {
+    finding.subject = subject;
+    finding.topic = topic;
+  }
+  return findings;
+}
+
+}  // namespace cosserat_cable

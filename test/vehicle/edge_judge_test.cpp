@@ -1,0 +1,184 @@
+#include "cosserat_cable/vehicle/edge_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kStart = 100;    // [s]
+constexpr double kMaxGap = 0.25;  // [s]
+
+std::int64_t Stamp(double seconds) {
+  return static_cast<std::int64_t>(std::llround(seconds * 1e9));
+}
+
+Pose At(double x, double yaw = 0) {
+  Pose pose;
+  pose.p.x() = x;
+  pose.q = Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ());
+  return pose;
+}
+
+struct Run {
+  double rate;
+  double seconds = 10;
+  std::function<Pose(double)> pose;                    // of the time of measurement [s]
+  std::function<double()> delay = [] { return 0.0; };  // of the stamp [s]
+};
+
+EdgeJudge Judged(EdgeRole role, const Run& run) {
+  EdgeJudge judge(role, kMaxGap);
+  const int count = static_cast<int>(run.seconds * run.rate);
+  for (int i = 0; i <= count; ++i) {
+    const double t = i / run.rate;
+    judge.Add(Stamp(kStart + t + run.delay()), run.pose(t));
+  }
+  return judge;
+}
+
+Findings Found(EdgeRole role, const Run& run) {
+  return Judged(role, run).Report("odom -> base_link", "/tf");
+}
+
+std::string Kinds(const Findings& findings) {
+  std::string kinds;
+  for (const Finding& finding : findings) kinds += (kinds.empty() ? "" : " ") + finding.kind;
+  return kinds;
+}
+
+// ---- What is no fault -------------------------------------------------------------------------
+
+TEST(EdgeJudge, SteadyMotionIsFine) {
+  EXPECT_EQ(Kinds(Found(EdgeRole::kBody, {100, 10, [](double t) { return At(10 * t); }})), "");
+}
+
+TEST(EdgeJudge, AWheelsCarrierOnABadRoadIsFine) {
+  // 10 g at 12 Hz, sampled 200 and 50 times a second.
+  const auto hop = [](double t) { return At(0.0176 * std::sin(2 * M_PI * 12 * t)); };
+  EXPECT_EQ(Kinds(Found(EdgeRole::kJoint, {200, 10, hop})), "");
+  EXPECT_EQ(Kinds(Found(EdgeRole::kJoint, {50, 10, hop})), "");
+}
+
+TEST(EdgeJudge, AHardLandingIsFine) {
+  // Falls at 4 m/s and is stopped within 20 ms, 20 g, then sways.
+  const auto land = [](double t) {
+    const double u = t - 5;
+    if (u < 0) return At(-4 * u);
+    return At(-0.04 * (1 - std::exp(-u / 0.01)) * std::cos(8 * u));
+  };
+  EXPECT_EQ(Kinds(Found(EdgeRole::kBody, {100, 10, land})), "");
+}
+
+TEST(EdgeJudge, EncoderStepsAreFine) {
+  constexpr double kStep = 0.2e-3;  // [m]
+  const auto quantised = [](double t) {
+    return At(kStep * std::round(0.05 * std::sin(2 * M_PI * 1.5 * t) / kStep));
+  };
+  for (const double rate : {100.0, 500.0, 1000.0})
+    EXPECT_EQ(Kinds(Found(EdgeRole::kJoint, {rate, 10, quantised})), "") << rate;
+}
+
+TEST(EdgeJudge, UnevenStampsThatAreRightAreFine) {
+  // Measured when it was stamped, at uneven times.
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uneven(0, 0.002);
+  EdgeJudge judge(EdgeRole::kBody, kMaxGap);
+  for (int i = 0; i < 1000; ++i) {
+    const double t = 0.01 * i + uneven(random);
+    judge.Add(Stamp(kStart + t), At(10 * t));
+  }
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
+}
+
+TEST(EdgeJudge, LostSamplesOfSteadyMotionAreFine) {
+  EdgeJudge judge(EdgeRole::kBody, kMaxGap);
+  for (int i = 0; i < 1000; ++i)
+    if (i % 7 != 0) judge.Add(Stamp(kStart + 0.01 * i), At(0.1 * i));
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
+}
+
+// ---- Faults -----------------------------------------------------------------------------------
+
+TEST(EdgeJudge, StampsOfPublishingAreLate) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> late(0, 0.002);
+  const Findings findings = Found(EdgeRole::kBody, {100, 10, [](double t) { return At(10 * t); },
+                                                    [&] { return late(random); }});
+  ASSERT_EQ(Kinds(findings), "late_stamps");
+  // Velocities off by 10 m/s * 2 ms / 10 ms, one after the other.
+  EXPECT_GT(findings[0].size, 100);
+  EXPECT_NE(findings[0].what.find("late by 0 to 2"), std::string::npos) << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("--smooth"), std::string::npos);
+  EXPECT_EQ(findings[0].topic, "/tf");
+}
+
+TEST(EdgeJudge, LateStampsOfATurnAreToldToo) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> late(0, 0.003);
+  const Findings findings = Found(EdgeRole::kBody, {200, 10, [](double t) { return At(0, 2 * t); },
+                                                    [&] { return late(random); }});
+  ASSERT_EQ(Kinds(findings), "late_stamps");
+  EXPECT_EQ(findings[0].unit, "rad/s^2");
+}
+
+TEST(EdgeJudge, NoiseIsTold) {
+  std::mt19937 random(4);
+  std::normal_distribution<double> noise(0, 1e-3);
+  const Findings findings =
+      Found(EdgeRole::kBody, {100, 10, [&](double t) { return At(2 * t + noise(random)); }});
+  ASSERT_EQ(Kinds(findings), "noise");
+  // sqrt(6) sigma / h^2 = 24.5 m/s^2; blocks of 32 scatter, and the worst one is told.
+  EXPECT_GT(findings[0].size, 20);
+  EXPECT_LT(findings[0].size, 40);
+}
+
+TEST(EdgeJudge, AJumpIsToldWithTimeAndSize) {
+  const Findings findings =
+      Found(EdgeRole::kBody, {50, 10, [](double t) { return At(2 * t + (t > 4.999 ? 0.1 : 0)); }});
+  ASSERT_EQ(Kinds(findings), "jump");
+  EXPECT_EQ(findings[0].count, 1u);
+  EXPECT_NEAR(findings[0].size, 0.1, 1e-9);
+  EXPECT_EQ(findings[0].worst, Stamp(kStart + 5));
+}
+
+TEST(EdgeJudge, OneSampleFarOffIsTold) {
+  // At 500 Hz, where only every fourth sample is looked at for jumps.
+  const Findings findings =
+      Found(EdgeRole::kJoint, {500, 10, [](double t) {
+                                 const bool off = std::abs(t - 3.002) < 1e-6;
+                                 return At(0.02 * std::sin(6 * t) + (off ? 0.03 : 0));
+                               }});
+  ASSERT_EQ(Kinds(findings), "acceleration");
+  EXPECT_EQ(findings[0].worst, Stamp(kStart + 3.002));
+}
+
+// ---- Corrections ------------------------------------------------------------------------------
+
+TEST(EdgeJudge, ACorrectionMovesByJumpsAtAnyRate) {
+  const auto corrected = [](double t) { return At(7 + (t > 4.95 ? 0.1 : 0)); };
+  for (const double rate : {1.0, 10.0, 50.0}) {
+    const EdgeJudge judge = Judged(EdgeRole::kAboveVehicle, {rate, 10, corrected});
+    EXPECT_TRUE(judge.MovesByJumps()) << rate;
+    EXPECT_EQ(Kinds(judge.Report("", "")), "jump") << rate;
+  }
+}
+
+TEST(EdgeJudge, ACorrectionOfTheHeadingCountsToo) {
+  EXPECT_TRUE(Judged(EdgeRole::kAboveVehicle,
+                     {10, 10, [](double t) { return At(0, t > 4.95 ? 0.005 : 0); }})
+                  .MovesByJumps());
+}
+
+TEST(EdgeJudge, APlatformDoesNotMoveByJumps) {
+  const auto ship = [](double t) { return At(5 * t + 0.5 * std::sin(t), 0.1 * std::sin(0.8 * t)); };
+  EXPECT_FALSE(Judged(EdgeRole::kAboveVehicle, {10, 20, ship}).MovesByJumps());
+  EXPECT_FALSE(
+      Judged(EdgeRole::kAboveVehicle, {10, 20, [](double) { return At(3); }}).MovesByJumps());
+}
+
+}  // namespace
+}  // namespace cosserat_cable

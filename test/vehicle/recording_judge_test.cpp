@@ -1,0 +1,135 @@
+#include "cosserat_cable/vehicle/recording_judge.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kMaxGap = 0.25;
+constexpr std::int64_t kStart = 100'000'000'000;  // [ns]
+constexpr std::int64_t kPeriod = 20'000'000;
+
+VehicleModel MakeVehicle() {
+  VehicleModel vehicle;
+  vehicle.root = "base_link";
+  vehicle.links = {"base_link", "strut", "mast"};
+  JointModel travel, mount;
+  travel.name = "travel";
+  travel.parent = mount.parent = "base_link";
+  travel.child = "strut";
+  travel.type = JointModel::Type::kPrismatic;
+  mount.name = "mount";
+  mount.child = "mast";
+  mount.X_PJ.p = {0, 0, 1};
+  vehicle.joints = {travel, mount};
+  return vehicle;
+}
+
+Pose At(double x) {
+  Pose pose;
+  pose.p.x() = x;
+  return pose;
+}
+
+class RecordingJudgeTest : public testing::Test {
+ protected:
+  // 10 s of an edge at 50 Hz.
+  template <class Position>
+  void Drive(const char* parent, const char* child, const Position& position) {
+    RecordingJudge::Edge* edge = judge_.At(parent, child);
+    edge->topic = "/tf";
+    for (int i = 0; i <= 500; ++i) judge_.AddMotion(edge, kStart + i * kPeriod, At(position(i)));
+  }
+
+  VehicleModel vehicle_ = MakeVehicle();
+  RecordingJudge judge_{vehicle_, kMaxGap};
+};
+
+double Rolls(int i) { return 0.04 * i; }
+double IsCorrected(int i) { return i < 250 ? 7 : 7.1; }
+
+TEST_F(RecordingJudgeTest, TheFrameBelowACorrectedOneIsInertial) {
+  Drive("odom", "base_link", Rolls);
+  Drive("map", "odom", IsCorrected);
+  const RecordingJudge::Way way = {"base_link", "odom", "map"};
+  EXPECT_EQ(judge_.SmoothFrame(way), "odom");
+  const Findings findings = judge_.Report(way, "odom");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "jump");
+  EXPECT_EQ(findings[0].subject, "map -> odom");
+  EXPECT_EQ(findings[0].worst, kStart + 250 * kPeriod);
+  EXPECT_NE(judge_.Report(way, "map")[0].remedy.find("--world-frame odom"), std::string::npos);
+}
+
+TEST_F(RecordingJudgeTest, WithoutJumpsTheTopmostFrameIsInertial) {
+  Drive("odom", "base_link", Rolls);
+  Drive("ship", "odom", [](int) { return 3.0; });
+  Drive("earth", "ship", [](int i) { return 0.1 * i + 0.2 * std::sin(0.02 * i); });
+  const RecordingJudge::Way way = {"base_link", "odom", "ship", "earth"};
+  EXPECT_EQ(judge_.SmoothFrame(way), "earth");
+  EXPECT_TRUE(judge_.Report(way, "earth").empty());
+}
+
+TEST_F(RecordingJudgeTest, TheMotionBelowAJumpIsKept) {
+  // The attitude alone moves right above the vehicle; the way it goes is one edge higher.
+  Drive("footprint", "base_link", [](int i) { return 0.01 * std::sin(0.1 * i); });
+  Drive("odom", "footprint", Rolls);
+  Drive("map", "odom", IsCorrected);
+  EXPECT_EQ(judge_.SmoothFrame({"base_link", "footprint", "odom", "map"}), "odom");
+}
+
+TEST_F(RecordingJudgeTest, AVehicleThatJumpsItselfHasNoSmootherFrame) {
+  Drive("map", "base_link", [](int i) { return Rolls(i) + (i < 250 ? 0 : 0.1); });
+  const RecordingJudge::Way way = {"base_link", "map"};
+  EXPECT_EQ(judge_.SmoothFrame(way), "map");
+  const Findings findings = judge_.Report(way, "map");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "jump");
+}
+
+TEST_F(RecordingJudgeTest, PublishersThatDisagreeAreNamed) {
+  RecordingJudge::Edge* edge = judge_.At("base_link", "strut");
+  const int driver = judge_.Publisher("/driver"), zeros = judge_.Publisher("/zeros");
+  for (int i = 0; i <= 500; ++i) {
+    judge_.AddSaid(edge, driver, kStart + i * kPeriod, At(0.03 * std::sin(0.1 * i)));
+    if (i % 5 == 0) judge_.AddSaid(edge, zeros, kStart + i * kPeriod + 1'000'000, At(0));
+  }
+  const Findings findings = judge_.Report({"base_link"}, "base_link");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "two_publishers");
+  EXPECT_EQ(findings[0].subject, "joint 'travel'");
+  EXPECT_NE(findings[0].what.find("/driver"), std::string::npos);
+  EXPECT_NE(findings[0].what.find("/zeros"), std::string::npos);
+  EXPECT_NEAR(findings[0].size, 0.03, 0.001);
+}
+
+TEST_F(RecordingJudgeTest, PublishersThatAgreeAreFine) {
+  RecordingJudge::Edge* edge = judge_.At("base_link", "strut");
+  const int fast = judge_.Publisher("/fast"), slow = judge_.Publisher("/slow");
+  const auto travel = [](double i) { return At(0.03 * std::sin(0.1 * i)); };
+  for (int i = 0; i <= 500; ++i) {
+    judge_.AddSaid(edge, fast, kStart + i * kPeriod, travel(i));
+    if (i % 5 == 0) judge_.AddSaid(edge, slow, kStart + i * kPeriod + 7'000'000, travel(i + 0.35));
+  }
+  EXPECT_TRUE(judge_.Report({"base_link"}, "base_link").empty());
+}
+
+TEST_F(RecordingJudgeTest, FixedTransformsThatContradictAreTold) {
+  judge_.AddFixed("base_link", "mast", vehicle_.joints[1].X_PJ, "/tf_static");
+  EXPECT_TRUE(judge_.Report({"base_link"}, "base_link").empty());
+  judge_.AddFixed("base_link", "mast", At(0.05), "/tf_static");
+  const Findings changes = judge_.Report({"base_link"}, "base_link");
+  ASSERT_EQ(changes.size(), 1u);
+  EXPECT_EQ(changes[0].kind, "static_changes");
+
+  RecordingJudge other(vehicle_, kMaxGap);
+  other.AddFixed("base_link", "mast", At(0.05), "/tf_static");
+  const Findings differs = other.Report({"base_link"}, "base_link");
+  ASSERT_EQ(differs.size(), 1u);
+  EXPECT_EQ(differs[0].kind, "differs_from_urdf");
+}
+
+}  // namespace
+}  // namespace cosserat_cable
