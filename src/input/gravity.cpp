@@ -90,7 +90,7 @@ std::optional<Eigen::Vector3d> ReadGravity(const std::vector<double>& values, Pr
   const Eigen::Vector3d gravity(values[0], values[1], values[2]);
   if (!gravity.allFinite()) return refuse("a number that is not finite", "X,Y,Z [m/s^2]");
   if (gravity.norm() > kMost) {
-    return refuse(FormatRounded(gravity.norm()) + " m/s^2",
+    return refuse(FormatRounded(gravity.norm(), 4) + " m/s^2",
                   "at most " + FormatRounded(kMost) + " m/s^2, as 0,0,-9.81");
   }
   return gravity;

@@ -215,7 +215,7 @@ TEST_F(LinkMotionTest, GapsAreCounted) {
 
 TEST_F(LinkMotionTest, AConstantTransformThatIsSentSlowlyHasNoGaps) {
   LinkMotion links(vehicle_, needed_, options_);
-  for (int i = 0; i < 5; ++i) {
+  for (std::int64_t i = 0; i < 5; ++i) {
     links.Ingest(Transform("world", "odom", kStart + i * 1'000'000'000, BodyPose(1)), false);
     Drive(&links, kStart + i * 1'000'000'000, 100);
   }
@@ -226,7 +226,7 @@ TEST_F(LinkMotionTest, AConstantTransformThatIsSentSlowlyHasNoGaps) {
 
 TEST_F(LinkMotionTest, ASlowTransformThatMovesHasGaps) {
   LinkMotion links(vehicle_, needed_, options_);
-  for (int i = 0; i < 5; ++i) {
+  for (std::int64_t i = 0; i < 5; ++i) {
     links.Ingest(Transform("world", "odom", kStart + i * 1'000'000'000, BodyPose(i)), false);
     Drive(&links, kStart + i * 1'000'000'000, 100);
   }
@@ -238,7 +238,7 @@ TEST_F(LinkMotionTest, ASlowTransformThatMovesHasGaps) {
 TEST_F(LinkMotionTest, FindsTheFrameBelowALocalisation) {
   LinkMotion links(vehicle_, needed_, options_);
   Drive(&links, kStart, 200);
-  for (int i = 0; i < 20; ++i) {
+  for (std::int64_t i = 0; i < 20; ++i) {
     Pose corrected;
     corrected.p.x() = i < 10 ? 7 : 7.1;
     links.Ingest(Transform("map", "odom", kStart + i * 100'000'000, corrected), false);
@@ -256,7 +256,7 @@ TEST_F(LinkMotionTest, WhatTheUserTakesAsInertialIsNotJudgedFromAbove) {
   options_.world_frame = "odom";
   LinkMotion links(vehicle_, needed_, options_);
   Drive(&links, kStart, 200);
-  for (int i = 0; i < 20; ++i) {
+  for (std::int64_t i = 0; i < 20; ++i) {
     Pose corrected;
     corrected.p.x() = i < 10 ? 7 : 7.1;
     links.Ingest(Transform("map", "odom", kStart + i * 100'000'000, corrected), false);
