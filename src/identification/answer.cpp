@@ -49,17 +49,53 @@ bool OfCable(const ParameterEstimate& estimate) {
   return estimate.unknown.kind == Unknown::Kind::kCable;
 }
 
+const char* NoiseFrom(NoiseLevel::Source source) {
+  switch (source) {
+    case NoiseLevel::Source::kGiven:
+      return "set";
+    case NoiseLevel::Source::kRecord:
+      return "record";
+    case NoiseLevel::Source::kRepeats:
+      return "repeats";
+    case NoiseLevel::Source::kUnknown:
+      return "residual";
+  }
+  return "";
+}
+
+/// The noise's own level where there is one, else what the fit leaves.
+double NoiseOf(const ChannelFit& fit) {
+  return fit.noise.source == NoiseLevel::Source::kUnknown ? fit.rms : fit.noise.sd;
+}
+
 /// `interval`: between two samples, on average [s]; 0 of a quasi-static record.
 json ChannelJson(const Channel& channel, const ChannelFit& fit, double interval) {
   return {{"column", channel.column},
           {"quantity", ToString(channel.quantity)},
           {"unit", ChannelUnit(channel.quantity)},
-          {"sigma", fit.sigma},
+          {"sigma", NoiseOf(fit)},
           {"sigma_given", fit.sigma_given},
+          {"noise_from", NoiseFrom(fit.noise.source)},
+          {"weighted_by", fit.sigma},
           {"rms", fit.rms},
           {"correlation_samples", fit.correlation_samples},
           {"correlation_time", interval > 0 ? json(interval * fit.correlation_samples) : json()},
-          {"misfit", fit.sigma > 0 ? json(fit.rms / fit.sigma) : json()}};
+          {"misfit", fit.times_noise > 0 ? json(fit.times_noise) : json()},
+          {"explained", fit.times_noise > 0 ? json(!fit.misfit) : json()}};
+}
+
+json SlipJson(const ChannelSlip& slip) {
+  json entry = {{"experiment", slip.experiment},
+                {"column", slip.column.empty() ? json() : json(slip.column)},
+                {"kind", slip.kind},
+                {"text", slip.text},
+                {"factor", slip.factor},
+                {"constant", slip.constant},
+                {"delay", slip.delay},
+                {"misfit", slip.before},
+                {"misfit_with", slip.after}};
+  if (!slip.shows.empty()) entry["shows"] = slip.shows;
+  return entry;
 }
 
 }  // namespace
@@ -132,10 +168,12 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
       for (const ParameterEstimate& one : estimation.parameters)
         if (one.unknown.name == name + ".offset") channel["offset"] = one.value;
       entry["channels"].push_back(channel);
-      answer["noise"][name] = fit.sigma_given ? fit.sigma : fit.rms;
+      answer["noise"][name] = NoiseOf(fit);
     }
     answer["experiments"].push_back(entry);
   }
+  answer["slips"] = json::array();
+  for (const ChannelSlip& slip : estimation.slips) answer["slips"].push_back(SlipJson(slip));
   answer["discretisation"] = estimation.discretisation;
   answer["warnings"] = estimation.warnings;
   return answer;
@@ -209,6 +247,10 @@ std::string AnswerTable(const Estimation& estimation) {
                     one.reason.substr(0, 200).c_str());
     out << line;
   }
+  for (const ChannelSlip& slip : estimation.slips)
+    out << slip.experiment << ": " << slip.text << (slip.text.back() == '?' ? "" : ".")
+        << " It would leave " << FormatRounded(slip.after, 2) << " times the noise instead of "
+        << FormatRounded(slip.before, 2) << ".\n";
   return out.str();
 }
 
