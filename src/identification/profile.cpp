@@ -12,8 +12,11 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// In standard deviations to each side: always, and where the deviance is still small then.
-constexpr int kSteps = 3, kMostSteps = 6;
+// To each side: of a standard deviation, always; of twice the last, where the deviance is still
+// small then.
+constexpr int kSteps = 3, kMostSteps = 7;
+// A deviance below this is flat: so much the minimisation leaves.
+constexpr double kFlat = 0.03;
 // Of the sum of squares: at the ends of an interval this moves them by a few thousandths of their
 // distance. A gain beyond shows a better optimum.
 constexpr double kProfileTolerance = 0.02, kBetter = 0.1;
@@ -76,7 +79,7 @@ class Profiler {
     const int i = requests_[side->request].unknown;
     const Unknown& own = unknowns()[static_cast<std::size_t>(i)];
     const double sd = std::sqrt(optimum_.covariance(i, i)) * own.scale;
-    const double step = side->direction * sd;
+    const double step = side->direction * sd * std::pow(2, std::max(0, side->steps - kSteps + 1));
     const double goal = std::clamp(side->at[i] + step, own.lower, own.upper);
     if (goal == side->at[i]) return false;
     VectorXd move;  // of all, as this one makes it
@@ -174,14 +177,19 @@ std::optional<std::pair<double, double>> IntervalOf(const Profile& profile, doub
                                                     double quantile, double lower) {
   // Along the signed root of the deviance, which is straight where the problem is linear.
   std::vector<std::pair<double, double>> roots;  // value, root
-  for (std::size_t k = 0; k < profile.value.size(); ++k)
-    roots.push_back({profile.value[k],
-                     std::copysign(std::sqrt(profile.deviance[k]), profile.value[k] - value)});
+  bool bounded = false;
+  for (std::size_t k = 0; k < profile.value.size(); ++k) {
+    const double root = std::sqrt(profile.deviance[k]);
+    bounded = bounded || (profile.value[k] <= lower && root < quantile);
+    if (profile.value[k] == value)
+      roots.push_back({value, 0.0});
+    else if (profile.deviance[k] > kFlat)
+      roots.push_back({profile.value[k], std::copysign(root, profile.value[k] - value)});
+  }
   std::sort(roots.begin(), roots.end());
   for (std::size_t k = 1; k < roots.size(); ++k)
     if (!(roots[k].second > roots[k - 1].second)) return std::nullopt;
   if (roots.size() < 2) return std::nullopt;
-  const bool bounded = roots.front().first <= lower && roots.front().second > -quantile;
   if (!bounded && roots.front().second > -kLeastReach) return std::nullopt;
   if (roots.back().second < kLeastReach) return std::nullopt;
   const auto at = [&](double root) {

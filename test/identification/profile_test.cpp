@@ -27,7 +27,7 @@ constexpr double kLeft = 0.05;
 /// stiffness and the zero are hard to tell apart.
 struct Pendulum {
   explicit Pendulum(bool unknown_offset) {
-    Experiment experiment = testing::Torsion(kInertia, 0.5, 0.06, 121);
+    Experiment experiment = testing::Torsion(kInertia, 0.5, 0.04, 81);
     Specimen specimen = testing::CableSpecimen();
     specimen.disc_inertia = kInertia;
     const SimulatedRecord record =
@@ -149,6 +149,11 @@ TEST(ProfileTest, AtABoundTheIntervalEndsThere) {
   ASSERT_TRUE(interval);
   EXPECT_EQ(interval->first, 0);
   EXPECT_DOUBLE_EQ(interval->second, 2);
+  // So does one that has not risen yet where the bound is.
+  const auto flat = IntervalOf({{0, 0.5, 1, 2, 4}, {0, 0, 0.001, 1, 9}}, 0.5, 2, 0);
+  ASSERT_TRUE(flat);
+  EXPECT_EQ(flat->first, 0);
+  EXPECT_DOUBLE_EQ(flat->second, 3);
   // A profile that falls again says nothing.
   EXPECT_FALSE(IntervalOf({{0, 1, 2, 3}, {4, 0, 4, 3}}, 1, 2));
 }
