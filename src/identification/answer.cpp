@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 
 #include "cable_number.h"
@@ -14,8 +15,6 @@ namespace cosserat_cable {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kNormal95 = 1.959964;
 
 const char* ChannelUnit(Quantity quantity) {
   switch (quantity) {
@@ -66,6 +65,29 @@ const char* NoiseFrom(NoiseLevel::Source source) {
 /// The noise's own level where there is one, else what the fit leaves.
 double NoiseOf(const ChannelFit& fit) {
   return fit.noise.source == NoiseLevel::Source::kUnknown ? fit.rms : fit.noise.sd;
+}
+
+/// Whether the line of an identified cable with this key has the parameter, and which of the line's
+/// numbers it is: "" where it is the only one.
+std::optional<std::string> PlaceInLine(const std::string& key, const ParameterEstimate& one) {
+  if (!OfCable(one) || key.empty()) return std::nullopt;
+  const std::string& name = one.unknown.name;
+  if (key == name || key == name + "1" || key == name + "2") return "";
+  if (name == kEndDamping && key == "clamp_damping") return name;
+  const std::string law = "extensions." + key;
+  if (name.rfind(law + "[", 0) == 0 || name.rfind(law + ".", 0) == 0)
+    return name.substr(std::string("extensions.").size());
+  return std::nullopt;
+}
+
+/// The interval is the one of the table.
+std::string Found(const std::string& key, const ParameterEstimate& one) {
+  const std::string& name = one.unknown.name;
+  if (one.determined && key == name + "2") return "identified with " + name + "1, in proportion";
+  if (!one.determined) return "not determined by the data: " + one.reason;
+  const int digits = DigitsFor(one.value, one.sd);
+  return "identified, 95 % from " + FormatRounded(one.low, digits) + " to " +
+         FormatRounded(one.high, digits);
 }
 
 /// `interval`: between two samples, on average [s]; 0 of a quasi-static record.
@@ -124,6 +146,8 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
     if (one.unknown.start_known) answer["start"][name] = one.unknown.start;
     if (one.determined) {
       answer["intervals"][name] = {one.low, one.high};
+      answer["intervals_of_curvature"][name] = {one.value - one.quantile * one.sd,
+                                                one.value + one.quantile * one.sd};
       if (!one.profile.value.empty())
         answer["profiles"][name] = {{"value", one.profile.value},
                                     {"deviance", one.profile.deviance}};
@@ -202,15 +226,14 @@ std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& est
     if (begin != std::string::npos && colon != std::string::npos && colon > begin)
       key = line.substr(begin, colon - begin);
     if (!key.empty() && is_default(key)) continue;
+    std::string remark;
     for (const ParameterEstimate& one : estimation.parameters) {
-      const bool dashpot = one.unknown.name == kEndDamping && key == "clamp_damping";
-      if (!OfCable(one) || (key != one.unknown.name && key != one.unknown.name + "1" && !dashpot))
-        continue;
-      line += one.determined
-                  ? "  # identified, +- " + FormatRounded(kNormal95 * one.sd, 2) + " (95 %)"
-                  : "  # not determined by the data: " + one.reason;
+      const std::optional<std::string> of = PlaceInLine(key, one);
+      if (of)
+        remark +=
+            (remark.empty() ? "  # " : "; ") + (of->empty() ? "" : *of + " ") + Found(key, one);
     }
-    text += line + "\n";
+    text += line + remark + "\n";
   }
   return text;
 }

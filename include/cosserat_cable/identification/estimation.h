@@ -42,6 +42,7 @@ struct ParameterEstimate {
   double value = 0;  ///< where it is not determined: what the simulation was left with
   double sd = 0;
   double low = 0, high = 0;  ///< 95 %, from the profile where there is one
+  double quantile = 0;       ///< standard deviations to the ends of the curvature's interval
   std::string reason;        ///< why it is not determined
   Profile profile;
 };
