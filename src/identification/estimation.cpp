@@ -10,6 +10,7 @@
 #include "channel_slips.h"
 #include "cosserat_cable/input/number_text.h"
 #include "damage.h"
+#include "estimation_remarks.h"
 #include "fit.h"
 #include "information.h"
 #include "noise.h"
@@ -44,15 +45,9 @@ constexpr double kAtBest = 0.01;
 constexpr int kMostConclusions = 2;
 // How often a profile may find a better optimum.
 constexpr int kMostBetter = 2;
-// Half widths of an interval from a profile and from the curvature that differ by more than this
-// factor are told.
-constexpr double kCurved = 1.5;
 // How often what differs between records is estimated anew, and the change that ends it.
 constexpr int kScatterRounds = 6;
 constexpr double kScatterSettled = 0.05;
-
-// A fit that leaves so many times the noise is no ground for reasons.
-constexpr double kBadFit = 5.0;
 
 /// Residuals of a channel at the samples that `count`.
 Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
@@ -112,8 +107,6 @@ class Work {
   bool ConcludeAtBest();
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
-  void Judge(const Experiment& experiment, ChannelFit* channel);
-  void TakeProfile(const Profile& profile, ParameterEstimate* estimate);
   void ReportChannels();
   void KeepDefaults(const Determination& determination);
 
@@ -183,6 +176,7 @@ bool Work::FitOnce(int round, bool weights_changed, Eigen::MatrixXd* jacobian) {
   };
   RefitJob job;
   job.values = optimum_.values;
+  job.tolerance = kAtBest;
   if (round == 0) {
     const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {}, progress);
     if (fit.interrupted) return Interrupted();
@@ -415,28 +409,6 @@ double Work::QuantileOf(int unknown, const Determination& determination,
   return StudentQuantile(freedom / (share * share));
 }
 
-/// The residual against a noise level that the fit had no part in.
-void Work::Judge(const Experiment& experiment, ChannelFit* channel) {
-  const std::string name = experiment.name + "/" + channel->column;
-  const auto samples = static_cast<double>(experiment.record.t.size());
-  channel->times_noise = TimesNoise(channel->rms, channel->noise);
-  channel->misfit = IsMisfit(channel->rms, samples, channel->noise);
-  if (channel->noise.source == NoiseLevel::Source::kUnknown) {
-    estimation_.warnings.push_back(
-        name +
-        ": the record does not tell its noise, and the set gives no `sigma`: what the fit "
-        "leaves, " +
-        FormatRounded(channel->rms) + ", counts as noise, whatever it is");
-  } else if (channel->misfit) {
-    estimation_.warnings.push_back(
-        name + ": the fit leaves " + FormatRounded(channel->times_noise, 2) +
-        " times the noise: what is left is " + FormatRounded(channel->rms) + ", the noise " +
-        (channel->sigma_given ? "that the set gives " : "") + FormatRounded(channel->noise.sd) +
-        ": the simulation lacks something that the data show. The intervals take what is left for "
-        "noise");
-  }
-}
-
 void Work::ReportChannels() {
   for (std::size_t e = 0; e < experiments().size(); ++e) {
     const Experiment& experiment = experiments()[e];
@@ -452,41 +424,12 @@ void Work::ReportChannels() {
       channel.rms = Rms(CountedResiduals(experiment, simulated_[e], Counted(e), column));
       channel.correlation_samples = colours_[e][c].correlation_samples;
       channel.noise = Level(e, column);
-      if (!model_.IsLeftOut(static_cast<int>(e))) Judge(experiment, &channel);
+      if (!model_.IsLeftOut(static_cast<int>(e)))
+        Judge(experiment, &channel, &estimation_.warnings);
       fit.channels.push_back(channel);
     }
     estimation_.experiments.push_back(std::move(fit));
   }
-}
-
-/// The interval from the profile, where it has one; told where the curvature's is another one.
-void Work::TakeProfile(const Profile& profile, ParameterEstimate* estimate) {
-  if (profile.value.empty()) return;
-  estimate->profile = profile;
-  const std::string name = "[" + estimate->unknown.name + "]";
-  const auto interval =
-      IntervalOf(profile, estimate->value, estimate->quantile, estimate->unknown.lower);
-  if (!interval) {
-    estimation_.warnings.push_back(
-        name + ": the profile of the likelihood does not rise far enough to both sides of " +
-        FormatRounded(estimate->value) +
-        ": the interval is the one from the curvature of the likelihood");
-    return;
-  }
-  const auto ratio = [](double profile_width, double width) {
-    return width > 0 ? profile_width / width : 1.0;  // none: both end at the unknown's bound
-  };
-  const double below = ratio(estimate->value - interval->first, estimate->value - estimate->low);
-  const double above = ratio(interval->second - estimate->value, estimate->high - estimate->value);
-  const auto differs = [](double x) { return x > kCurved || x < 1 / kCurved; };
-  if (differs(below) || differs(above))
-    estimation_.warnings.push_back(
-        name + ": the records do not depend on it in a straight line: the interval from the " +
-        "profile of the likelihood is " + FormatRounded(below, 2) + " (below) and " +
-        FormatRounded(above, 2) + " (above) times as wide as the one from the curvature; " +
-        "the profile's is the one that is reported");
-  estimate->low = interval->first;
-  estimate->high = interval->second;
 }
 
 void Work::Report(const std::vector<ParameterScatter>& scatter) {
@@ -538,7 +481,7 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
       estimate.quantile = quantile;
       estimate.low = std::max(estimate.low, estimate.unknown.lower);
       for (std::size_t k = 0; k < shown.size(); ++k)
-        if (shown[k].unknown == i) TakeProfile(found.profiles[k], &estimate);
+        if (shown[k].unknown == i) TakeProfile(found.profiles[k], &estimate, &estimation_.warnings);
     }
     estimation_.parameters.push_back(std::move(estimate));
   }
@@ -608,28 +551,6 @@ bool Settled(const std::vector<ParameterScatter>& before,
                     [](const ParameterScatter& a, const ParameterScatter& b) {
                       return a.name == b.name && std::abs(a.sd / b.sd - 1) < kScatterSettled;
                     });
-}
-
-/// Reasons that were read off a bad fit say nothing; what the record would fit with does.
-void NameSlips(const Unknowns& unknowns, Estimation* estimation) {
-  const auto& experiments = unknowns.set().experiments;
-  for (ParameterEstimate& one : estimation->parameters) {
-    if (one.determined || one.unknown.kind != Unknown::Kind::kCable) continue;
-    std::string slips, bad;
-    for (std::size_t e = 0; e < experiments.size(); ++e) {
-      if (!unknowns.Concerns(unknowns.Find(one.unknown.name), static_cast<int>(e))) continue;
-      for (const ChannelSlip& slip : estimation->slips)
-        if (slip.experiment == experiments[e].name)
-          slips += (slips.empty() ? "" : "; ") + slip.experiment + ": " + slip.text;
-      for (const ChannelFit& channel : estimation->experiments[e].channels)
-        if (channel.misfit && channel.times_noise > kBadFit)
-          bad = experiments[e].name + "/" + channel.column;
-    }
-    if (!slips.empty())
-      one.reason = "the record does not fit as it is; " + slips;
-    else if (!bad.empty() && !estimation->experiments.empty())
-      one.reason += " (seen at a fit that does not explain " + bad + ")";
-  }
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 // Newton to a short one down the slope.
 const double kDampings[] = {0, 1e-5, 1e-3, 0.1};
 const double kMoreDampings[] = {1, 10, 100, 1000};  // where none of those gains
-constexpr int kMostSteps = 40;
+constexpr int kMostSteps = 12;
 // Of the promised gain: a step that keeps less asks for new derivatives.
 constexpr double kKept = 0.5;
 // Eigenvalues of the normal matrix of unit diagonal that are rounding.

@@ -77,47 +77,6 @@ TEST(EstimationTest, AnUnknownOffsetIsFoundBesideTheParameters) {
   EXPECT_NEAR(GJ.high - GJ.low, 2 * 1.96 * GJ.sd, 0.1 * 2 * 1.96 * GJ.sd);
 }
 
-TEST(EstimationTest, AnUnknownStartIsInTheProfiles) {
-  // A plain ring-down whose sensor is switched on while the cable swings.
-  Experiment experiment = testing::RingDown(0.02, 1.5, 151);
-  Record(CableSpecimen(), 2e-4, &experiment);
-  constexpr int kMissed = 17;  // a third of a period
-  std::vector<double>& t = experiment.record.t;
-  t.erase(t.begin(), t.begin() + kMissed);
-  experiment.record.values =
-      experiment.record.values.bottomRows(static_cast<Eigen::Index>(t.size())).eval();
-  experiment.start = StartCondition();
-  experiment.start.kind = StartCondition::Kind::kUnknown;
-  const MeasurementSet set = SetWith({experiment}, "[EI, eta_EI]");
-  EstimationOptions options;
-  options.scatter = false;
-  Problems problems;
-  const Estimation estimation = Estimate(set, options, &problems);
-  ASSERT_TRUE(problems.empty()) << problems.ToString();
-  ASSERT_TRUE(estimation.ok) << estimation.message;
-  constexpr double kBeyondLuck = 4;  // standard deviations
-  // So small a noise leaves the problem nearly linear: the profile's and the curvature's half
-  // widths agree to this part. A profile beside which the start is not fitted anew has 0.02 to 0.8
-  // of it.
-  constexpr double kNearlyLinear = 0.15;
-  for (const auto& [name, truth] : {std::pair<const char*, double>{"EI", CableSpecimen().cable.EI1},
-                                    {"eta_EI", CableSpecimen().cable.eta_EI1}}) {
-    const ParameterEstimate& one = Of(estimation, name);
-    ASSERT_TRUE(one.determined) << one.reason;
-    EXPECT_NEAR(one.value, truth, kBeyondLuck * one.sd) << name;
-    ASSERT_GT(one.profile.value.size(), 4u) << name;
-    EXPECT_NEAR((one.high - one.value) / (1.96 * one.sd), 1, kNearlyLinear) << name;
-    EXPECT_NEAR((one.value - one.low) / (1.96 * one.sd), 1, kNearlyLinear) << name;
-    // The fit ended at the minimum: the profile rises from there, as the square of the distance.
-    for (std::size_t k = 0; k < one.profile.value.size(); ++k) {
-      const double distance = std::abs(one.profile.value[k] - one.value) / one.sd;
-      EXPECT_NEAR(std::sqrt(one.profile.deviance[k]), distance,
-                  kNearlyLinear * std::max(distance, 1.0))
-          << name << " " << k;
-    }
-  }
-}
-
 TEST(EstimationTest, ItCanBeStopped) {
   Experiment experiment = testing::Torsion(2e-6, 0.5, 0.5, 101);
   Specimen specimen = CableSpecimen();
