@@ -17,7 +17,6 @@
 #include "noise_level.h"
 #include "profile.h"
 #include "record_scatter.h"
-#include "refit.h"
 #include "weighted_line.h"
 
 namespace cosserat_cable {
@@ -27,8 +26,8 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double kNormal95 = 1.959964;
 constexpr int kMaxRounds = 6;
-// A further round of steps, noise and fit is worth it where the values moved by more than this,
-// in standard deviations along the way that they went, or a noise by this part.
+// A further round of steps, noise and fit is worth it where values moved by more than this part of
+// their standard deviation, or a noise by this part.
 constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
 // What the largest of a record's frequencies gains by chance, in its sum of squares by the noise's,
 // grows as twice the logarithm of their number; twice that, and a base for short records.
@@ -37,14 +36,7 @@ constexpr double kSilentBase = 20, kSilentPerLog = 4;
 // the part of the noise below which a sample has none.
 constexpr double kMostShift = 0.2, kResolved = 0.5;
 // Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
-constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08, kPartOfEnd = 0.84,
-                 kPartOfProfiles = 0.86;
-// Of the sum of squares: what a step more may gain where a fit is at its end; and how often the
-// end is looked for anew.
-constexpr double kAtBest = 0.01;
-constexpr int kMostConclusions = 2;
-// How often a profile may find a better optimum.
-constexpr int kMostBetter = 2;
+constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
 // How often what differs between records is estimated anew, and the change that ends it.
 constexpr int kScatterRounds = 6;
 constexpr double kScatterSettled = 0.05;
@@ -102,9 +94,7 @@ class Work {
   void LeaveOutDamaged();
   void LeaveOutShort();
   bool LeaveOutSilent();
-  bool FitOnce(int round, bool weights_changed, Eigen::MatrixXd* jacobian);
   bool Conclude();
-  bool ConcludeAtBest();
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
   void ReportChannels();
@@ -169,51 +159,35 @@ bool Work::UpdateNoise() {
   return changed;
 }
 
-/// To the minimum for these steps and noises. False: interrupted, or not to be simulated.
-bool Work::FitOnce(int round, bool weights_changed, Eigen::MatrixXd* jacobian) {
-  const FitProgress progress = [&](const std::string& what) {
-    return Tell("fitting whole records, " + what, kPartOfStart + kPartOfRound * (round + 0.5));
-  };
-  RefitJob job;
-  job.values = optimum_.values;
-  job.tolerance = kAtBest;
-  if (round == 0) {
-    const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {}, progress);
-    if (fit.interrupted) return Interrupted();
-    if (!fit.ok) {
-      estimation_.message = "the fit does not converge: " + fit.message;
-      return false;
-    }
-    job.values = fit.values;
-  } else if (!weights_changed) {
-    job.jacobian = *jacobian;
-  }
-  const Refitted fit = Refit(model_, noise_, {job}, progress).front();
-  if (fit.interrupted) return Interrupted();
-  if (!fit.ok) {
-    estimation_.message = "the fit does not converge: the records cannot be simulated";
-    return false;
-  }
-  optimum_.values = fit.values;
-  *jacobian = fit.jacobian;
-  return true;
-}
-
 bool Work::FitInRounds() {
-  Eigen::MatrixXd jacobian;
+  FitResult fit;
   bool noise_changed = true;
   for (int round = 0; round < kMaxRounds; ++round) {
     if (!Tell("comparing with finer steps", kPartOfStart + kPartOfRound * round))
       return Interrupted();
     estimation_.discretisation = model_.Refine(optimum_.values);
     const Eigen::VectorXd before = optimum_.values;
-    if (!FitOnce(round, noise_changed, &jacobian)) return false;
+    const bool polished = !noise_changed && Polish(model_, fit.jacobian, noise_, &optimum_.values);
+    if (!polished) {
+      const FitProgress progress = [&](const std::string& what) {
+        return Tell("fitting whole records, " + what, kPartOfStart + kPartOfRound * (round + 0.5));
+      };
+      fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {}, progress);
+      if (fit.interrupted) return Interrupted();
+      if (!fit.ok) {
+        estimation_.message = "the fit does not converge: " + fit.message;
+        return false;
+      }
+      optimum_.values = fit.values;
+    }
     simulated_ = model_.Simulate({optimum_.values}, model_.WholeHorizon()).front().records;
     noise_changed = UpdateNoise();
-    Eigen::VectorXd move = optimum_.values - before;
-    for (int i = 0; i < unknowns_.size(); ++i) move[i] /= unknowns_.all()[i].scale;
-    const double moved = (jacobian * move).norm();
-    const bool sharper = Sharpen(jacobian);
+    // Against the standard deviations of the unknowns by themselves: the strictest measure.
+    double moved = 0;
+    for (int i = 0; i < unknowns_.size(); ++i)
+      moved = std::max(moved, std::abs(optimum_.values[i] - before[i]) / unknowns_.all()[i].scale *
+                                  fit.jacobian.col(i).norm());
+    const bool sharper = Sharpen(fit.jacobian);
     if (round > 0 && !noise_changed && !sharper && moved < kSettled) break;
   }
   return true;
@@ -224,7 +198,7 @@ bool Work::FitToEnd() {
   LeaveOutShort();
   // What was left out has pulled at the rest until now.
   if (LeaveOutSilent() && !FitInRounds()) return false;
-  if (ConcludeAtBest()) return true;
+  if (Conclude()) return true;
   estimation_.interrupted = estimation_.message.empty();
   return false;
 }
@@ -353,25 +327,6 @@ bool Work::Conclude() {
   return true;
 }
 
-/// Records that were left out and better derivatives move the optimum once more.
-bool Work::ConcludeAtBest() {
-  for (int round = 0;; ++round) {
-    if (!Conclude()) return false;
-    const double left =
-        PromisedGain(model_, optimum_.values, optimum_.jacobian, optimum_.residuals, {});
-    if (left < kAtBest || round == kMostConclusions) return true;
-    RefitJob job;
-    job.values = optimum_.values;
-    job.jacobian = optimum_.jacobian;
-    const Refitted fit = Refit(model_, noise_, {job}, [&](const std::string& what) {
-                           return Tell("last steps, " + what, kPartOfEnd);
-                         }).front();
-    if (fit.interrupted || !fit.ok) return false;
-    if (fit.values == optimum_.values) return true;
-    optimum_.values = fit.values;
-  }
-}
-
 /// What is not determined goes back to what was known of it, and the rest is fitted once more.
 void Work::KeepDefaults(const Determination& determination) {
   bool moved = false;
@@ -434,33 +389,20 @@ void Work::ReportChannels() {
 
 void Work::Report(const std::vector<ParameterScatter>& scatter) {
   estimation_.scatter = scatter;
-  Information information;
-  Determination determination;
-  std::vector<ProfileRequest> shown;
-  Profiles found;
-  for (int round = 0;; ++round) {
-    information = InformationOf(model_, optimum_.jacobian, colours_);
-    determination = Determine(model_, optimum_.values, information);
-    optimum_.covariance = determination.covariance;
-    shown.clear();
-    for (const int i : determination.determined)
-      if (unknowns_.all()[i].kind == Unknown::Kind::kCable)
-        shown.push_back({i, QuantileOf(i, determination, information)});
-    if (!options_.profiles) break;
-    const FitProgress progress = [&](const std::string& what) {
-      return Tell("profiles of the likelihood, " + what, kPartOfProfiles);
-    };
-    found = FindProfiles(model_, optimum_, noise_, shown, progress);
-    if (!found.better || found.interrupted || round == kMostBetter) break;
-    const Optimum before = optimum_;
-    optimum_.values = *found.better;
-    if (!ConcludeAtBest()) {
-      optimum_ = before;
-      break;
-    }
-  }
-  if (found.interrupted) found.profiles.clear();
-  found.profiles.resize(shown.size());
+  const Information information = InformationOf(model_, optimum_.jacobian, colours_);
+  const Determination determination = Determine(model_, optimum_.values, information);
+  optimum_.covariance = determination.covariance;
+  std::vector<int> shown;
+  for (const int i : determination.determined)
+    if (unknowns_.all()[i].kind == Unknown::Kind::kCable) shown.push_back(i);
+  std::vector<Profile> profiles(shown.size());
+  // A start is far from what one step of the profile mends: the interval would be far too narrow.
+  const bool starts_unknown =
+      std::any_of(unknowns_.all().begin(), unknowns_.all().end(), [](const Unknown& one) {
+        return one.kind == Unknown::Kind::kSwing || one.kind == Unknown::Kind::kSpeed;
+      });
+  if (options_.profiles && !starts_unknown && Tell("profiles of the likelihood", 0.85))
+    profiles = FindProfiles(model_, optimum_, noise_, shown);
 
   const Eigen::VectorXd fitted = optimum_.values;
   const Eigen::VectorXd sds = determination.covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -479,9 +421,16 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
       estimate.low = estimate.value - quantile * estimate.sd;
       estimate.high = estimate.value + quantile * estimate.sd;
       estimate.quantile = quantile;
+      const auto place = std::find(shown.begin(), shown.end(), i);
+      if (place != shown.end()) {
+        estimate.profile = profiles[static_cast<std::size_t>(place - shown.begin())];
+        if (const auto interval = IntervalOf(estimate.profile, estimate.value)) {
+          const double wider = quantile / kNormal95;
+          estimate.low = estimate.value + wider * (interval->first - estimate.value);
+          estimate.high = estimate.value + wider * (interval->second - estimate.value);
+        }
+      }
       estimate.low = std::max(estimate.low, estimate.unknown.lower);
-      for (std::size_t k = 0; k < shown.size(); ++k)
-        if (shown[k].unknown == i) TakeProfile(found.profiles[k], &estimate, &estimation_.warnings);
     }
     estimation_.parameters.push_back(std::move(estimate));
   }

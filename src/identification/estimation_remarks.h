@@ -13,10 +13,6 @@ namespace cosserat_cable {
 /// The residual against a noise level that the fit had no part in. Sets `times_noise` and `misfit`.
 void Judge(const Experiment& experiment, ChannelFit* channel, std::vector<std::string>* warnings);
 
-/// The interval from the profile, where it has one; told where the curvature's is another one.
-void TakeProfile(const Profile& profile, ParameterEstimate* estimate,
-                 std::vector<std::string>* warnings);
-
 /// Reasons that were read off a bad fit say nothing; what the record would fit with does.
 void NameSlips(const Unknowns& unknowns, Estimation* estimation);
 

@@ -2,6 +2,7 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -37,6 +38,10 @@ constexpr int kPoints = 24, kBest = 2;
 // A derivative whose records, over the unknown's whole size, stay below this part of the noise's
 // sum of squares is none.
 constexpr double kUnseen = 1e-3;
+// Steps with old derivatives; the gain in the sum of squares that is not worth another, and the
+// loss that rounding may make.
+constexpr int kPolishSteps = 6;
+constexpr double kPolished = 1e-4, kPolishNoise = 1e-2;
 constexpr std::uint32_t kSeed = 20150113;
 
 /// All records against one block of unknowns in units of their scales.
@@ -278,6 +283,31 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   result.values.resize(unknowns.size());
   for (int i = 0; i < unknowns.size(); ++i) result.values[i] = x[i] * unknowns.all()[i].scale;
   return result;
+}
+
+bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const NoiseLevels& noise,
+            Eigen::VectorXd* values) {
+  const Unknowns& unknowns = model.unknowns();
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solve(jacobian);
+  Eigen::VectorXd best = *values;
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step <= kPolishSteps; ++step) {
+    const RecordModel::Simulated found = model.Simulate({best}, model.WholeHorizon()).front();
+    if (!found.ok) return false;
+    const Eigen::VectorXd residuals = WeightedResiduals(model, best, found.records, noise);
+    const double cost = residuals.squaredNorm();
+    if (cost > least + kPolishNoise) return false;
+    least = std::min(least, cost);
+    *values = best;
+    const Eigen::VectorXd move = -solve.solve(residuals);
+    const double gain = (jacobian * move).squaredNorm();
+    if (gain < kPolished) return true;
+    for (int i = 0; i < unknowns.size(); ++i) {
+      const Unknown& u = unknowns.all()[i];
+      best[i] = std::clamp(best[i] + move[i] * u.scale, u.lower, u.upper);
+    }
+  }
+  return false;
 }
 
 /// The cable's parameters that explain little of what is left over, however far they are moved:

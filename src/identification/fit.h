@@ -57,6 +57,11 @@ struct FitOptions {
 FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
               const NoiseLevels& noise, const FitOptions& options, const FitProgress& progress);
 
+/// The last small steps to a minimum that is near, with the derivatives as they were there: Gauss
+/// and Newton's. False where they lead nowhere; `values` are left as they were then.
+bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const NoiseLevels& noise,
+            Eigen::VectorXd* values);
+
 /// From nowhere near: points spread around the start and `more` on the first part of the records,
 /// the best of them fitted to longer and longer parts, so that no swing is taken for the next.
 /// Unknown starts are found from the first part of a period before. On the way, unknowns that an
