@@ -8,6 +8,8 @@ from report_page import Bullets, Figure, Heading, Table, Text
 NORMAL_95 = figures.NORMAL_95
 # Residual over noise from which on a channel is said not to be explained.
 MISFIT = 1.3
+NOISE_FROM = {'set': 'given', 'record': 'the record', 'repeats': 'repeated steps',
+              'residual': 'the residual: there is no other way'}
 UNITS = {'EI': 'N m^2', 'EI1': 'N m^2', 'EI2': 'N m^2', 'GJ': 'N m^2', 'EA': 'N', 'GA': 'N',
          'eta_EI': 'N m^2 s', 'eta_EI1': 'N m^2 s', 'eta_EI2': 'N m^2 s', 'eta_GJ': 'N m^2 s',
          'eta_EA': 'N s', 'eta_GA': 'N s', 'D_E': 'N m s', 'length': 'm', 'mass_per_length': 'kg/m'}
@@ -52,9 +54,20 @@ def unit_of(name, data):
     return (data.get('units') or {}).get(name, UNITS.get(name, ''))
 
 
+def unexplained(channel):
+    """Whether the residual is clearly more than noise; older answers leave that to a threshold."""
+    explained = channel.get('explained')
+    return (channel.get('misfit') or 0) > MISFIT if explained is None else not explained
+
+
+def stop(text):
+    """What ends the sentence, where it has no end."""
+    return '' if text.endswith('?') else '.'
+
+
 def misfits(data):
     return [f"{e['name']}/{c['column']}" for e in data.get('experiments', [])
-            for c in e.get('channels', []) if (c.get('misfit') or 0) > MISFIT]
+            for c in e.get('channels', []) if unexplained(c)]
 
 
 def verdict(data, intervals):
@@ -75,6 +88,9 @@ def verdict(data, intervals):
     if off:
         text += (f' The fit does not explain {len(off)} of {channels} channels to their noise: '
                  'something is missing from the model there, and the intervals may be too narrow.')
+    elif channels and all(c.get('noise_from') == 'residual' for e in data['experiments']
+                          for c in e.get('channels', [])):
+        text += ' No record tells its noise: whether the fit explains them cannot be said.'
     elif channels:
         text += f' The fit explains all {channels} channels to their noise.'
     return Text(text, 'verdict')
@@ -152,10 +168,11 @@ def noise_table(data):
             offset = channel.get('offset')
             rows.append([entry['name'], channel['column'], channel.get('unit', ''),
                          number(channel.get('sigma')),
-                         'given' if channel.get('sigma_given') else 'estimated',
+                         NOISE_FROM.get(channel.get('noise_from'), 'given'
+                                        if channel.get('sigma_given') else 'estimated'),
                          number(channel.get('correlation_time')), number(channel.get('rms')),
                          '-' if misfit is None else f'{misfit:.2f}'
-                         + (' NOT EXPLAINED' if misfit > MISFIT else ''), number(offset)])
+                         + (' NOT EXPLAINED' if unexplained(channel) else ''), number(offset)])
     if not rows:
         rows = [[*key.split('/', 1), '', number(sigma), '', '-', '-', '-', '-']
                 for key, sigma in (data.get('noise') or {}).items() if '/' in key]
@@ -258,6 +275,10 @@ def content(data, records):
     """All items. records: {experiment: {column: array}}"""
     intervals = intervals_of(data)
     items = [Heading('Identification: ' + data.get('set', ''), 1), verdict(data, intervals)]
+    if data.get('slips'):
+        items.append(Bullets([f"{slip['experiment']}: {slip['text']}{stop(slip['text'])} It would leave "
+                              f"{slip['misfit_with']:.2g} times the noise instead of "
+                              f"{slip['misfit']:.2g}." for slip in data['slips']], 'warning'))
     if data.get('warnings'):
         items.append(Bullets(data['warnings'], 'warning'))
     items += [Heading('Parameters', 2), parameter_table(data, intervals), *combinations(data)]
@@ -276,8 +297,9 @@ def content(data, records):
     noise = noise_table(data)
     if noise.rows:
         items += [Heading('Noise', 2),
-                  Text(f'A channel whose residual is more than {MISFIT} times its noise is not '
-                       'explained by the model.', ''), noise]
+                  Text('A channel whose residual is clearly more than its noise is not explained by '
+                       'the model. The noise comes from the record itself, not from the fit, where '
+                       'there is a way.', ''), noise]
     items += direct_items(data, intervals) + plan_items(data)
     if data.get('messages'):
         items += [Heading('Messages', 2), Bullets(data['messages'], '')]

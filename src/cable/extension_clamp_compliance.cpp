@@ -17,7 +17,7 @@ ExtensionLaw ClampComplianceLaw() {
   ExtensionLaw law;
   law.name = "clamp_compliance";
   law.shape = "clamps {a: {bending: ..., torsion: ...}, b: ...}";
-  law.fields = ClampFields(NumberSpec::Above(0, "N m/rad").AtMost(1e9));
+  law.fields = ClampFields(NumberSpec::Above(0, "N m/rad").AtMost(1e9), "N m/rad");
   law.enter = Enter;
   return law;
 }

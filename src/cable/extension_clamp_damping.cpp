@@ -13,7 +13,8 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 }
 
 // Where a clamp does not turn, a dashpot would be without effect. End b of a specimen may have a
-// disc instead of a clamp: only its measurement set knows, and CheckAgainstVehicle refuses it there.
+// disc instead of a clamp: only its measurement set knows, and CheckAgainstVehicle refuses it
+// there.
 void Check(const ExtensionKey& key, const CableKeys& cable, Problems* problems) {
   const std::vector<ExtensionKey>& all = *cable.extensions.value;
   const auto springs = std::find_if(all.begin(), all.end(), [](const ExtensionKey& other) {
@@ -35,7 +36,7 @@ ExtensionLaw ClampDampingLaw() {
   ExtensionLaw law;
   law.name = "clamp_damping";
   law.shape = "clamps {a: {bending: ..., torsion: ...}, b: ...}";
-  law.fields = ClampFields(NumberSpec::AtLeast(0, "N m s/rad"));
+  law.fields = ClampFields(NumberSpec::AtLeast(0, "N m s/rad"), "N m s/rad");
   law.check = Check;
   law.enter = Enter;
   return law;

@@ -6,10 +6,10 @@
 namespace cosserat_cable {
 
 /// `a` and `b`, each with `bending` and `torsion`.
-inline std::vector<ExtensionField> ClampFields(const NumberSpec& spec) {
+inline std::vector<ExtensionField> ClampFields(const NumberSpec& spec, const std::string& unit) {
   std::vector<ExtensionField> fields;
   for (const char* path : {"a.bending", "a.torsion", "b.bending", "b.torsion"})
-    fields.push_back({path, spec, ExtensionField::Need::kAny});
+    fields.push_back({path, unit, spec, ExtensionField::Need::kAny});
   return fields;
 }
 

@@ -22,6 +22,7 @@ struct ExtensionField {
     kAny  ///< may be left out; an entry without any of these would do nothing, and is a mistake
   };
   std::string path;  ///< "tau"; "a.bending" for one in a map of the entry
+  std::string unit;
   NumberSpec spec;
   Need need = Need::kRequired;
   std::optional<double> otherwise =

@@ -27,10 +27,10 @@ ExtensionLaw MaxwellLaw() {
   law.name = "maxwell";
   law.shape = "a branch {tau: ..., EI: ...}";
   law.list = true;
-  law.fields = {{"tau", RelaxationTimeSpec()},
-                {"EI", BranchBendingStiffnessSpec(), Need::kAny, 0.0, true},
-                {"GJ", BranchBendingStiffnessSpec(), Need::kAny, 0.0},
-                {"EA", BranchAxialStiffnessSpec(), Need::kAny, 0.0}};
+  law.fields = {{"tau", "s", RelaxationTimeSpec()},
+                {"EI", "N m^2", BranchBendingStiffnessSpec(), Need::kAny, 0.0, true},
+                {"GJ", "N m^2", BranchBendingStiffnessSpec(), Need::kAny, 0.0},
+                {"EA", "N", BranchAxialStiffnessSpec(), Need::kAny, 0.0}};
   law.enter = Enter;
   return law;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 
 #include "cable_number.h"
@@ -14,8 +15,6 @@ namespace cosserat_cable {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kNormal95 = 1.959964;
 
 const char* ChannelUnit(Quantity quantity) {
   switch (quantity) {
@@ -49,17 +48,76 @@ bool OfCable(const ParameterEstimate& estimate) {
   return estimate.unknown.kind == Unknown::Kind::kCable;
 }
 
+const char* NoiseFrom(NoiseLevel::Source source) {
+  switch (source) {
+    case NoiseLevel::Source::kGiven:
+      return "set";
+    case NoiseLevel::Source::kRecord:
+      return "record";
+    case NoiseLevel::Source::kRepeats:
+      return "repeats";
+    case NoiseLevel::Source::kUnknown:
+      return "residual";
+  }
+  return "";
+}
+
+/// The noise's own level where there is one, else what the fit leaves.
+double NoiseOf(const ChannelFit& fit) {
+  return fit.noise.source == NoiseLevel::Source::kUnknown ? fit.rms : fit.noise.sd;
+}
+
+/// Whether the line of an identified cable with this key has the parameter, and which of the line's
+/// numbers it is: "" where it is the only one.
+std::optional<std::string> PlaceInLine(const std::string& key, const ParameterEstimate& one) {
+  if (!OfCable(one) || key.empty()) return std::nullopt;
+  const std::string& name = one.unknown.name;
+  if (key == name || key == name + "1" || key == name + "2") return "";
+  if (name == kEndDamping && key == "clamp_damping") return name;
+  const std::string law = "extensions." + key;
+  if (name.rfind(law + "[", 0) == 0 || name.rfind(law + ".", 0) == 0)
+    return name.substr(std::string("extensions.").size());
+  return std::nullopt;
+}
+
+/// The interval is the one of the table.
+std::string Found(const std::string& key, const ParameterEstimate& one) {
+  const std::string& name = one.unknown.name;
+  if (one.determined && key == name + "2") return "identified with " + name + "1, in proportion";
+  if (!one.determined) return "not determined by the data: " + one.reason;
+  const int digits = DigitsFor(one.value, one.sd);
+  return "identified, 95 % from " + FormatRounded(one.low, digits) + " to " +
+         FormatRounded(one.high, digits);
+}
+
 /// `interval`: between two samples, on average [s]; 0 of a quasi-static record.
 json ChannelJson(const Channel& channel, const ChannelFit& fit, double interval) {
   return {{"column", channel.column},
           {"quantity", ToString(channel.quantity)},
           {"unit", ChannelUnit(channel.quantity)},
-          {"sigma", fit.sigma},
+          {"sigma", NoiseOf(fit)},
           {"sigma_given", fit.sigma_given},
+          {"noise_from", NoiseFrom(fit.noise.source)},
+          {"weighted_by", fit.sigma},
           {"rms", fit.rms},
           {"correlation_samples", fit.correlation_samples},
           {"correlation_time", interval > 0 ? json(interval * fit.correlation_samples) : json()},
-          {"misfit", fit.sigma > 0 ? json(fit.rms / fit.sigma) : json()}};
+          {"misfit", fit.times_noise > 0 ? json(fit.times_noise) : json()},
+          {"explained", fit.times_noise > 0 ? json(!fit.misfit) : json()}};
+}
+
+json SlipJson(const ChannelSlip& slip) {
+  json entry = {{"experiment", slip.experiment},
+                {"column", slip.column.empty() ? json() : json(slip.column)},
+                {"kind", slip.kind},
+                {"text", slip.text},
+                {"factor", slip.factor},
+                {"constant", slip.constant},
+                {"delay", slip.delay},
+                {"misfit", slip.before},
+                {"misfit_with", slip.after}};
+  if (!slip.shows.empty()) entry["shows"] = slip.shows;
+  return entry;
 }
 
 }  // namespace
@@ -88,6 +146,8 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
     if (one.unknown.start_known) answer["start"][name] = one.unknown.start;
     if (one.determined) {
       answer["intervals"][name] = {one.low, one.high};
+      answer["intervals_of_curvature"][name] = {one.value - one.quantile * one.sd,
+                                                one.value + one.quantile * one.sd};
       if (!one.profile.value.empty())
         answer["profiles"][name] = {{"value", one.profile.value},
                                     {"deviance", one.profile.deviance}};
@@ -132,10 +192,12 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
       for (const ParameterEstimate& one : estimation.parameters)
         if (one.unknown.name == name + ".offset") channel["offset"] = one.value;
       entry["channels"].push_back(channel);
-      answer["noise"][name] = fit.sigma_given ? fit.sigma : fit.rms;
+      answer["noise"][name] = NoiseOf(fit);
     }
     answer["experiments"].push_back(entry);
   }
+  answer["slips"] = json::array();
+  for (const ChannelSlip& slip : estimation.slips) answer["slips"].push_back(SlipJson(slip));
   answer["discretisation"] = estimation.discretisation;
   answer["warnings"] = estimation.warnings;
   return answer;
@@ -164,15 +226,14 @@ std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& est
     if (begin != std::string::npos && colon != std::string::npos && colon > begin)
       key = line.substr(begin, colon - begin);
     if (!key.empty() && is_default(key)) continue;
+    std::string remark;
     for (const ParameterEstimate& one : estimation.parameters) {
-      const bool dashpot = one.unknown.name == kEndDamping && key == "clamp_damping";
-      if (!OfCable(one) || (key != one.unknown.name && key != one.unknown.name + "1" && !dashpot))
-        continue;
-      line += one.determined
-                  ? "  # identified, +- " + FormatRounded(kNormal95 * one.sd, 2) + " (95 %)"
-                  : "  # not determined by the data: " + one.reason;
+      const std::optional<std::string> of = PlaceInLine(key, one);
+      if (of)
+        remark +=
+            (remark.empty() ? "  # " : "; ") + (of->empty() ? "" : *of + " ") + Found(key, one);
     }
-    text += line + "\n";
+    text += line + remark + "\n";
   }
   return text;
 }
@@ -209,6 +270,10 @@ std::string AnswerTable(const Estimation& estimation) {
                     one.reason.substr(0, 200).c_str());
     out << line;
   }
+  for (const ChannelSlip& slip : estimation.slips)
+    out << slip.experiment << ": " << slip.text << (slip.text.back() == '?' ? "" : ".")
+        << " It would leave " << FormatRounded(slip.after, 2) << " times the noise instead of "
+        << FormatRounded(slip.before, 2) << ".\n";
   return out.str();
 }
 

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <vector>
+
+#include "cosserat_cable/cable/extension_number.h"
 
 namespace cosserat_cable {
 namespace {
@@ -54,28 +57,11 @@ InPair<DampingPair> DampingInPair(const std::string& name, CableKeys* keys) {
   return FindInPair(name, "eta_GA", &keys->eta_GA);
 }
 
-/// A number of an extension: "extensions.maxwell[0].EI".
-double* ExtensionNumber(const std::string& name, CableKeys* keys) {
-  const std::string prefix = "extensions.";
-  if (name.rfind(prefix, 0) != 0 || !keys->extensions.value) return nullptr;
-  std::string rest = name.substr(prefix.size());
-  const std::size_t end = rest.find_first_of("[.");
-  if (end == std::string::npos) return nullptr;
-  const std::string law = rest.substr(0, end);
-  std::size_t part = 0;
-  std::string path = rest.substr(end + 1);
-  if (rest[end] == '[') {
-    part = std::stoul(path);
-    const std::size_t dot = path.find('.');
-    if (dot == std::string::npos) return nullptr;
-    path = path.substr(dot + 1);
-  }
-  for (ExtensionKey& key : *keys->extensions.value) {
-    if (key.extension.name != law || part >= key.extension.parts.size()) continue;
-    const auto number = key.extension.parts[part].find(path);
-    if (number != key.extension.parts[part].end()) return &number->second;
-  }
-  return nullptr;
+/// A number of an extension: "extensions.maxwell[0].EI". Empty: there is none.
+std::vector<double*> ExtensionNumbers(const std::string& name, CableKeys* keys) {
+  if (!keys->extensions.value) return {};
+  const auto found = FindExtensionNumber(name, &*keys->extensions.value);
+  return found ? found->values : std::vector<double*>();
 }
 
 constexpr const char* kDashpotLaw = "clamp_damping";
@@ -132,7 +118,7 @@ std::string UnitOf(const std::string& name) {
                                                            {kEndDamping, "N m s"},
                                                            {"disc.inertia", "kg m^2"}};
   const auto found = units.find(name);
-  return found == units.end() ? "SI" : found->second;
+  return found == units.end() ? ExtensionNumberUnit(name) : found->second;
 }
 
 bool IsDamping(const std::string& name) {
@@ -154,8 +140,8 @@ std::optional<double> NumberOf(const std::string& name, const CableKeys& keys) {
                            : std::nullopt;
   if (const auto pair = DampingInPair(name, &copy); pair.key)
     return pair.key->value ? Known((*pair.key->value)[std::max(0, pair.which)]) : std::nullopt;
-  if (const double* value = ExtensionNumber(name, &copy)) return *value;
-  return std::nullopt;
+  const std::vector<double*> numbers = ExtensionNumbers(name, &copy);
+  return numbers.empty() ? std::nullopt : std::optional<double>(*numbers.front());
 }
 
 bool Gives(const std::string& name, const CableKeys& keys) {
@@ -165,7 +151,7 @@ bool Gives(const std::string& name, const CableKeys& keys) {
   if (const auto* key = SingleDamping(name, &copy)) return key->given();
   if (const auto pair = StiffnessPair(name, &copy); pair.key) return pair.key->given();
   if (const auto pair = DampingInPair(name, &copy); pair.key) return pair.key->given();
-  return ExtensionNumber(name, &copy) != nullptr;
+  return !ExtensionNumbers(name, &copy).empty();
 }
 
 bool IsUnknown(const std::string& name, const CableKeys& keys) {
@@ -206,8 +192,12 @@ void SetNumber(const std::string& name, double value, CableKeys* keys) {
       both = {number, {DampingKey::Kind::kNumber, value * ratio}};
     }
     Give(&pair.key->mark, name);
-  } else if (double* number = ExtensionNumber(name, keys)) {
-    *number = value;
+  } else {
+    const std::vector<double*> numbers = ExtensionNumbers(name, keys);
+    // The second direction goes with the first in proportion.
+    if (numbers.size() == 2)
+      *numbers[1] = *numbers[0] == 0 ? value : value * (*numbers[1] / *numbers[0]);
+    if (!numbers.empty()) *numbers[0] = value;
   }
 }
 

@@ -7,11 +7,14 @@
 #include <memory>
 
 #include "cable_number.h"
+#include "channel_slips.h"
 #include "cosserat_cable/input/number_text.h"
 #include "damage.h"
+#include "estimation_remarks.h"
 #include "fit.h"
 #include "information.h"
 #include "noise.h"
+#include "noise_level.h"
 #include "profile.h"
 #include "record_scatter.h"
 #include "weighted_line.h"
@@ -37,8 +40,6 @@ constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
 // How often what differs between records is estimated anew, and the change that ends it.
 constexpr int kScatterRounds = 6;
 constexpr double kScatterSettled = 0.05;
-// Residuals so many times the noise show that the simulation lacks something.
-constexpr double kMisfit = 1.5;
 
 /// Residuals of a channel at the samples that `count`.
 Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
@@ -77,14 +78,13 @@ class Work {
   bool Tell(const std::string& what, double part) {
     return !options_.progress || options_.progress(what, part);
   }
-  double SmoothNoise(std::size_t experiment, int column) const {
-    return NoiseOfSmooth(experiments()[experiment].record.values.col(column),
-                         model_.usable()[experiment].col(column));
-  }
+  NoiseLevel Level(std::size_t experiment, int column) const;
+  bool MovesBeyondNoise(std::size_t experiment) const;
   Eigen::MatrixXd Counted(std::size_t experiment) const;
   bool Sharpen(const Eigen::MatrixXd& jacobian);
   bool ShownByNone(int unknown) const;
   bool UpdateNoise();
+  bool FitInRounds();
   bool FitToEnd();
   bool Interrupted() {
     estimation_.interrupted = true;
@@ -93,7 +93,7 @@ class Work {
   void LeaveOut(std::size_t experiment, const std::string& why);
   void LeaveOutDamaged();
   void LeaveOutShort();
-  void LeaveOutSilent();
+  bool LeaveOutSilent();
   bool Conclude();
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
@@ -159,7 +159,7 @@ bool Work::UpdateNoise() {
   return changed;
 }
 
-bool Work::FitToEnd() {
+bool Work::FitInRounds() {
   FitResult fit;
   bool noise_changed = true;
   for (int round = 0; round < kMaxRounds; ++round) {
@@ -190,8 +190,14 @@ bool Work::FitToEnd() {
     const bool sharper = Sharpen(fit.jacobian);
     if (round > 0 && !noise_changed && !sharper && moved < kSettled) break;
   }
+  return true;
+}
+
+bool Work::FitToEnd() {
+  if (!FitInRounds()) return false;
   LeaveOutShort();
-  LeaveOutSilent();
+  // What was left out has pulled at the rest until now.
+  if (LeaveOutSilent() && !FitInRounds()) return false;
   if (Conclude()) return true;
   estimation_.interrupted = estimation_.message.empty();
   return false;
@@ -234,26 +240,70 @@ void Work::LeaveOutShort() {
   }
 }
 
+/// The noise of a channel, independent of the fit.
+NoiseLevel Work::Level(std::size_t e, int column) const {
+  const Experiment& experiment = experiments()[e];
+  // The record's own samples, also where it counts for nothing.
+  const Eigen::VectorXd usable = UsableSamples(experiment.record).col(column);
+  NoiseLevel level = LevelOf(experiment, column, usable, simulated_[e].col(column));
+  if (level.source == NoiseLevel::Source::kGiven || level.source == NoiseLevel::Source::kUnknown)
+    return level;
+  level.sd = std::max(level.sd, SmallestNoise(experiment, column));
+  return level;
+}
+
+bool Work::MovesBeyondNoise(std::size_t e) const {
+  const Experiment& experiment = experiments()[e];
+  for (int c = 0; c < static_cast<int>(experiment.channels.size()); ++c) {
+    const Eigen::VectorXd values = experiment.record.values.col(c);
+    const Eigen::VectorXd about = values.array() - values.mean();
+    const NoiseLevel level = LevelOf(experiment, c, model_.usable()[e].col(c));
+    if (IsMisfit(Rms(about), static_cast<double>(about.size()), level)) return true;
+  }
+  return false;
+}
+
 /// Records that the simulation explains no better than a constant does show nothing but noise, and
-/// whatever the search found in them was luck.
-void Work::LeaveOutSilent() {
+/// whatever the search found in them was luck; or they move, and nothing explains how. Where the
+/// cable stands still, the constants are what was measured: all but unknown offsets.
+/// @return whether one was left out that moves, and others remain: the fit is to be repeated
+bool Work::LeaveOutSilent() {
+  bool pulled = false;
   for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const Experiment& experiment = experiments()[e];
     if (model_.IsLeftOut(static_cast<int>(e))) continue;
+    const bool stands =
+        experiment.quasi_static() ||
+        (experiment.start.kind == StartCondition::Kind::kRest && !experiment.a.motion &&
+         !experiment.b.motion && experiment.load.file.empty());
+    if (stands && std::any_of(experiment.channels.begin(), experiment.channels.end(),
+                              [](const Channel& channel) { return !channel.unknown_offset; }))
+      continue;
     double gain = 0;
     Eigen::Index samples = 0;
-    for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c) {
+    for (int c = 0; c < static_cast<int>(experiment.channels.size()); ++c) {
       const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(
-          simulated_[e].rows(), simulated_[e].cols(), experiments()[e].record.values.col(c).mean());
+          simulated_[e].rows(), simulated_[e].cols(), experiment.record.values.col(c).mean());
       const Eigen::MatrixXd counted = Counted(e);
       const double variance = noise_[e][c] * noise_[e][c];
-      gain += (CountedResiduals(experiments()[e], constant, counted, c).squaredNorm() -
-               CountedResiduals(experiments()[e], simulated_[e], counted, c).squaredNorm()) /
+      gain += (CountedResiduals(experiment, constant, counted, c).squaredNorm() -
+               CountedResiduals(experiment, simulated_[e], counted, c).squaredNorm()) /
               variance;
       samples += simulated_[e].rows();
     }
     if (gain > kSilentBase + kSilentPerLog * std::log(static_cast<double>(samples))) continue;
-    LeaveOut(e, "the record shows nothing but noise, and counts for nothing");
+    if (MovesBeyondNoise(e)) {
+      LeaveOut(e,
+               "the record moves by far more than its noise, and the simulation explains none "
+               "of it with any parameters: it counts for nothing");
+      pulled = true;
+    } else {
+      LeaveOut(e, "the record shows nothing but noise, and counts for nothing");
+    }
   }
+  for (std::size_t e = 0; e < experiments().size() && pulled; ++e)
+    if (!model_.IsLeftOut(static_cast<int>(e))) return true;
+  return false;
 }
 
 /// Derivatives, residuals and their colour at the optimum.
@@ -319,6 +369,7 @@ void Work::ReportChannels() {
     const Experiment& experiment = experiments()[e];
     ExperimentFit fit;
     fit.simulated = simulated_[e];
+    fit.left_out = model_.IsLeftOut(static_cast<int>(e));
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
       const int column = static_cast<int>(c);
       ChannelFit channel;
@@ -327,13 +378,9 @@ void Work::ReportChannels() {
       channel.sigma_given = experiment.channels[c].sigma.has_value();
       channel.rms = Rms(CountedResiduals(experiment, simulated_[e], Counted(e), column));
       channel.correlation_samples = colours_[e][c].correlation_samples;
-      const double noise = channel.sigma_given ? channel.sigma : SmoothNoise(e, column);
-      if (channel.rms > kMisfit * noise)
-        estimation_.warnings.push_back(experiment.name + "/" + channel.column + ": what is left, " +
-                                       FormatRounded(channel.rms) + ", is " +
-                                       FormatRounded(channel.rms / noise, 2) + " times the noise" +
-                                       (channel.sigma_given ? " that the set gives" : "") +
-                                       ": the simulation lacks something that the data show");
+      channel.noise = Level(e, column);
+      if (!model_.IsLeftOut(static_cast<int>(e)))
+        Judge(experiment, &channel, &estimation_.warnings);
       fit.channels.push_back(channel);
     }
     estimation_.experiments.push_back(std::move(fit));
@@ -349,7 +396,12 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
   for (const int i : determination.determined)
     if (unknowns_.all()[i].kind == Unknown::Kind::kCable) shown.push_back(i);
   std::vector<Profile> profiles(shown.size());
-  if (options_.profiles && Tell("profiles of the likelihood", 0.85))
+  // A start is far from what one step of the profile mends: the interval would be far too narrow.
+  const bool starts_unknown =
+      std::any_of(unknowns_.all().begin(), unknowns_.all().end(), [](const Unknown& one) {
+        return one.kind == Unknown::Kind::kSwing || one.kind == Unknown::Kind::kSpeed;
+      });
+  if (options_.profiles && !starts_unknown && Tell("profiles of the likelihood", 0.85))
     profiles = FindProfiles(model_, optimum_, noise_, shown);
 
   const Eigen::VectorXd fitted = optimum_.values;
@@ -368,6 +420,7 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
       const double quantile = QuantileOf(i, determination, information);
       estimate.low = estimate.value - quantile * estimate.sd;
       estimate.high = estimate.value + quantile * estimate.sd;
+      estimate.quantile = quantile;
       const auto place = std::find(shown.begin(), shown.end(), i);
       if (place != shown.end()) {
         estimate.profile = profiles[static_cast<std::size_t>(place - shown.begin())];
@@ -460,6 +513,7 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
     for (std::size_t e = 0; e < set.experiments.size(); ++e)
       unknowns->MakeSpecimen(static_cast<int>(e), unknowns->StartValues(), problems);
   }
+  if (problems->empty()) CheckClocks(set, problems);
   if (!problems->empty() || unknowns->size() == 0) {
     Estimation none;
     none.message = problems->empty() ? "the set names nothing to be identified" : "";
@@ -478,7 +532,12 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
     unknowns = std::move(more);
   }
   work->Report(unknown_options.scatter);
-  return work->Answer();
+  Estimation estimation = work->Answer();
+  if (options.slips) {
+    estimation.slips = FindSlips(set, estimation, options);
+    NameSlips(*unknowns, &estimation);
+  }
+  return estimation;
 }
 
 }  // namespace cosserat_cable

@@ -15,9 +15,10 @@ using namespace cosserat_cable::generator;
 
 constexpr char kUsage[] =
     "usage: rig_generator RIG --output DIR [--seed N] [--snr DB] [--lengths N] [--repeats N]\n"
-    "                        [--longest M] [--scatter X]\n"
+    "                        [--longest M] [--scatter X] [--start known|unknown]\n"
     "Writes a measurement set with its truth (truth.json) into DIR.\n"
     "  RIG            random          a random cable: two ring-downs, torsion at 3 or 4 lengths\n"
+    "                 ringdowns       one or two short ring-downs of a random cable\n"
     "                 wire            a soft wire, hanging, that swings a little\n"
     "                 torsion-series  torsion at several lengths\n"
     "                 torsion-single  torsion at one length\n"
@@ -28,7 +29,10 @@ constexpr char kUsage[] =
     "  --repeats N    per length, of torsion-series and torsion-single (3)\n"
     "  --longest M    of torsion-series [m] (0.5)\n"
     "  --scatter X    of D_E, which is another one each time that the clamp is fastened: standard\n"
-    "                 deviation from record to record, relative, of torsion-* (0)\n";
+    "                 deviation from record to record, relative, of torsion-* (0)\n"
+    "  --start S      of ringdowns: unknown where the sensor is switched on while the cable "
+    "swings\n"
+    "                 already (known)\n";
 
 int wrong(const std::string& what) {
   std::fprintf(stderr, "rig_generator: %s\n%s", what.c_str(), kUsage);
@@ -46,8 +50,8 @@ bool parse(const std::string& text, double low, double high, double* value) {
 
 int main(int argc, char** argv) {
   std::map<std::string, std::string> options{
-      {"--seed", "1"},      {"--snr", "40"},    {"--lengths", "5"}, {"--repeats", "3"},
-      {"--longest", "0.5"}, {"--scatter", "0"}, {"--output", ""}};
+      {"--seed", "1"},      {"--snr", "40"},    {"--lengths", "5"},   {"--repeats", "3"},
+      {"--longest", "0.5"}, {"--scatter", "0"}, {"--start", "known"}, {"--output", ""}};
   if (argc > 1 && std::string(argv[1]) == "--help") {
     std::fputs(kUsage, stdout);
     return 0;
@@ -70,6 +74,8 @@ int main(int argc, char** argv) {
     return wrong("--longest: expected 0.15 to 10 m");
   if (!parse(options["--scatter"], 0.0, 1.0, &plan.scatter))
     return wrong("--scatter: expected 0 to 1");
+  if (options["--start"] != "known" && options["--start"] != "unknown")
+    return wrong("--start: expected known or unknown");
   if (options["--output"].empty()) return wrong("no --output given");
 
   const std::string rig = argv[1];
@@ -80,6 +86,10 @@ int main(int argc, char** argv) {
     MeasurementSet set;
     if (rig == "random") {
       set = randomSet(number, snr);
+    } else if (rig == "ringdowns") {
+      RingdownPlan ringdowns;
+      ringdowns.unknown_start = options["--start"] == "unknown";
+      set = ringdownSet(number, snr, ringdowns);
     } else if (rig == "wire") {
       set = wireSet(number, snr);
     } else if (rig == "torsion-series") {

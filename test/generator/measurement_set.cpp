@@ -72,7 +72,9 @@ std::string experimentYaml(const MeasuredExperiment& measured, double set_length
   } else {
     out << "    b: free\n";
   }
-  if (e.held) {
+  if (measured.unknown_start) {
+    out << "    start: {unknown: true}\n";
+  } else if (e.held) {
     out << "    start: {held: {s: " << number(e.cable.length) << ", position: " << list(*e.held)
         << "}}\n";
   } else {
@@ -193,6 +195,16 @@ std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experimen
     result.push_back(measured);
   }
   return result;
+}
+
+void forgetStart(double time, MeasuredExperiment* measured) {
+  Eigen::VectorXd& times = measured->experiment.times;
+  const auto first = std::lower_bound(times.begin(), times.end(), time) - times.begin();
+  const Eigen::Index left = times.size() - first;
+  if (left < 2) throw std::logic_error("no record is left");
+  times = times.tail(left).eval();
+  measured->values = measured->values.bottomRows(left).eval();
+  measured->unknown_start = true;
 }
 
 void writeSet(const MeasurementSet& set, const std::string& folder) {

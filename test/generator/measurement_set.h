@@ -15,6 +15,7 @@ struct MeasuredExperiment {
   Eigen::MatrixXd values;  ///< noisy, times x channels
   Eigen::VectorXd sigma;   ///< of each channel's noise
   std::vector<bool> told;  ///< whether the set says so
+  bool unknown_start = false;
 };
 
 /// Experiments, what is said to be known of the cable, and the truth.
@@ -33,6 +34,10 @@ struct MeasurementSet {
 /// of every second channel how large it is.
 std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experiments, double snr,
                                         Random* random, const Accuracy& accuracy = {});
+
+/// Takes the first samples away, up to `time` [s] after the release, and with them what the set
+/// knows of the start.
+void forgetStart(double time, MeasuredExperiment* measured);
 
 /// Writes measurement.yaml, a CSV file per experiment and truth.json into a folder, which is made.
 /// Throws std::runtime_error naming the file that could not be written.

@@ -195,6 +195,34 @@ MeasurementSet wireSet(std::uint64_t seed, double snr) {
   return set;
 }
 
+MeasurementSet ringdownSet(std::uint64_t seed, double snr, const RingdownPlan& plan) {
+  constexpr double kPeriods = 8.0, kSamplesPerPeriod = 30.0;
+  Random random(seed);
+  MeasurementSet set = begin("ringdowns", seed, snr);
+  const CableData cable = randomCable(&random);
+  set.truth = cable;
+  const double period = 2.0 * kPi / bendingFrequency(cable);
+  const double duration = std::clamp(kPeriods * period, 1.0, 2.0);
+  std::vector<Experiment> experiments;
+  const int records = random.chance(0.5) ? 1 : 2;
+  for (int i = 0; i < records; ++i) {
+    experiments.push_back(ringdown("ringdown_" + std::to_string(i + 1), cable,
+                                   random.uniform(0.0, 0.5 * kPi), random.uniform(0.02, 0.15),
+                                   duration, &random));
+    experiments.back().times =
+        jitteredTimes(duration, kSamplesPerPeriod / period, kJitter, &random);
+  }
+  set.uncertain = {"EI", "eta_EI"};
+  guess(&set, &random);
+  set.experiments = measure(experiments, snr, &random);
+  if (plan.unknown_start) {
+    for (MeasuredExperiment& one : set.experiments) {
+      forgetStart(random.uniform(0.2, 1.0) * period, &one);
+    }
+  }
+  return set;
+}
+
 MeasurementSet torsionSeries(std::uint64_t seed, double snr, const TorsionPlan& plan) {
   const int lengths = plan.lengths;
   constexpr double kRatio = 0.25;  // damping ratio at the shortest length

@@ -12,6 +12,13 @@ MeasurementSet randomSet(std::uint64_t seed, double snr);
 /// A soft wire that hangs down and swings a little.
 MeasurementSet wireSet(std::uint64_t seed, double snr);
 
+/// One or two ring-downs of a second or two, so small that a fit takes seconds.
+struct RingdownPlan {
+  /// The sensor is switched on while the cable swings: within the first period.
+  bool unknown_start = false;
+};
+MeasurementSet ringdownSet(std::uint64_t seed, double snr, const RingdownPlan& plan);
+
 /// Records of torsion: so many lengths, `repeats` of each.
 struct TorsionPlan {
   int lengths = 5;

@@ -108,6 +108,9 @@ def answer():
                               'eta_GJ': value(4.4e-5, 5e-6), 'D_E': value(0.9e-4, 2e-5)},
                    'eta_GJ_D_E_correlation': -0.8, 'undetermined': {},
                    'critical': {'eta_GJ': 2e-4}, 'messages': []},
+        'slips': [{'experiment': 'bend', 'column': 'side', 'kind': 'sign',
+                   'text': 'side fits with its sign turned', 'factor': -1.0, 'constant': 0.0,
+                   'delay': 0.0, 'misfit': 2.5, 'misfit_with': 1.04}],
         'warnings': ['bend: the record ends after two periods'], 'messages': ['11 steps of Ceres'],
         'plan': {'target': {'parameter': 'eta_GJ', 'accuracy': 0.1}, 'candidates': candidates,
                  'recommended': candidates[-1]},
@@ -170,7 +173,8 @@ class IdentificationReport(unittest.TestCase):
                      'does not explain 1 of 3 channels', 'NOT EXPLAINED', '0.01180 to 0.01230',
                      'EI to ±2.1 %', 'eta_GJ/L + D_E', 'gravity stiffens it', 'two periods',
                      'no channel shows a ring-down', 'For ±10 % on eta_GJ: 10 repeats',
-                     '11 steps of Ceres', '+22 %', '12.3 s'):
+                     'bend: side fits with its sign turned. It would leave 1 times the noise '
+                     'instead of 2.5.', '11 steps of Ceres', '+22 %', '12.3 s'):
             self.assertIn(text, page.text)
         self.assertEqual(contents(self.at('report.pdf'))[:5], b'%PDF-')
 

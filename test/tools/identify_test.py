@@ -52,6 +52,24 @@ class Identify(unittest.TestCase):
         with open(self.path('answer', 'identification.json')) as file:
             return json.load(file), out
 
+    def change_column(self, record, column, change):
+        """Writes the record anew with change(value) in this column."""
+        path = self.path('set', record)
+        with open(path) as file:
+            header, *rows = [line.strip().split(',') for line in file]
+        index = header.index(column)
+        for row in rows:
+            row[index] = repr(change(float(row[index])))
+        with open(path, 'w') as file:
+            file.writelines(','.join(row) + '\n' for row in [header] + rows)
+
+    def check_clean(self, answer):
+        """No slip is told of a good set, and no channel is more than noise."""
+        self.assertEqual(answer['slips'], [])
+        for experiment in answer['experiments']:
+            for channel in experiment['channels']:
+                self.assertTrue(channel['explained'], channel)
+
     def check(self, answer, truth, names):
         for name in names:
             value, deviation = answer['parameters'][name]
@@ -64,6 +82,7 @@ class Identify(unittest.TestCase):
         truth = self.generate('random', '--seed', 2, '--snr', 30)
         answer, _ = self.identify()
         self.check(answer, truth, ('EI', 'eta_EI', 'GJ', 'eta_GJ', 'D_E'))
+        self.check_clean(answer)
         with open(self.path('answer', 'report.html')) as file:
             self.assertTrue('image/svg+xml' in file.read(), 'no picture in the report')
         # The identified cable leaves noise and nothing else.
@@ -88,6 +107,7 @@ class Identify(unittest.TestCase):
         off = answer['direct']['values']['EI']['value'] / truth['EI'] - 1
         self.assertTrue(DIRECT_BIAS[0] < off < DIRECT_BIAS[1], off)
         self.assertIsNone(answer['parameters'].get('eta_GJ'))
+        self.check_clean(answer)
 
     def test_one_length_gives_a_combination_and_two_are_planned(self):
         truth = self.generate('torsion-single')
@@ -139,6 +159,33 @@ class Identify(unittest.TestCase):
         self.check(answer, truth, ('EI', 'eta_EI'))
         for channel in answer['experiments'][0]['channels']:
             self.assertLess(abs(channel['misfit'] - 1), NOISE, channel)
+
+    def test_slips_of_channels_are_named(self):
+        truth = self.generate('wire', '--snr', 40)
+        with open(self.path('set', 'measurement.yaml')) as file:
+            channels = [[channel['column'] for channel in experiment['channels']]
+                        for experiment in yaml.safe_load(file)['experiments']]
+        self.change_column('ringdown_1.csv', channels[0][0], lambda x: x + 0.004)
+        mirrored = channels[1][0]
+        with open(self.path('set', 'ringdown_2.csv')) as file:
+            header, first = (next(file).strip().split(',') for _ in range(2))
+        start = float(first[header.index(mirrored)])
+        self.change_column('ringdown_2.csv', mirrored, lambda x: -x)
+        answer, out = self.identify('--no-direct', '--no-profiles')
+        slips = {slip['experiment']: slip for slip in answer['slips']}
+        self.assertEqual(len(answer['slips']), 2, answer['slips'])
+        self.assertEqual(slips['ringdown_1']['kind'], 'offset')
+        self.assertEqual(slips['ringdown_1']['column'], channels[0][0])
+        # A constant beside a swing of 6 mm at 40 dB, three standard deviations of its mean.
+        self.assertAlmostEqual(slips['ringdown_1']['constant'], 0.004, delta=1e-4)
+        self.assertIn('fits with a constant of 4.0 mm: `offset: unknown`?', out)
+        self.assertEqual(slips['ringdown_2']['kind'], 'sign', start)
+        self.assertIn(mirrored + ' fits with its sign turned', out)
+        with open(self.path('answer', 'report.html')) as file:
+            self.assertIn('its sign turned', file.read())
+        # Told, not applied.
+        self.assertTrue(any('times the noise' in warning for warning in answer['warnings']))
+        self.assertGreater(truth['EI'], 0)
 
     def test_real_three_point_bending_is_not_explained_by_one_stiffness(self):
         if not os.path.exists(REAL):

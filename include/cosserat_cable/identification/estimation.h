@@ -23,6 +23,8 @@ struct EstimationOptions {
   bool use_damaged = false;
   /// Whether parameters may differ from record to record where the records say so.
   bool scatter = true;
+  /// Whether records that do not fit are searched for slips.
+  bool slips = true;
   /// Values to begin from besides the set's own, by name (the direct evaluation's).
   std::vector<std::pair<std::string, double>> guesses;
   EstimationProgress progress;
@@ -40,6 +42,7 @@ struct ParameterEstimate {
   double value = 0;  ///< where it is not determined: what the simulation was left with
   double sd = 0;
   double low = 0, high = 0;  ///< 95 %, from the profile where there is one
+  double quantile = 0;       ///< standard deviations to the ends of the curvature's interval
   std::string reason;        ///< why it is not determined
   Profile profile;
 };
@@ -51,17 +54,49 @@ struct Combination {
   std::string unit;
 };
 
+/// How large a channel's noise is, independently of any fit.
+struct NoiseLevel {
+  enum class Source {
+    kUnknown,  ///< there is no way to tell: the fit's own residual has to stand for it
+    kGiven,    ///< by the set
+    kRecord,   ///< from how rough the record is
+    kRepeats   ///< from steps at which the same was done
+  };
+  Source source = Source::kUnknown;
+  double sd = 0;       ///< [the channel's unit]; an upper bound, or zero, where it is unknown
+  double freedom = 0;  ///< degrees of freedom of the estimate
+};
+
 struct ChannelFit {
   std::string column;
-  double sigma = 0;  ///< of the noise, as used [the channel's unit]
+  double sigma = 0;  ///< what weighted the samples [the channel's unit]
   bool sigma_given = false;
+  NoiseLevel noise;
   double rms = 0;                  ///< of the residual
+  double times_noise = 0;          ///< how many times the noise that is; 0: unknown
+  bool misfit = false;             ///< clearly more than noise
   double correlation_samples = 1;  ///< how many residuals in a row are worth one
+};
+
+/// A channel, or a whole record, that would fit if it had been recorded otherwise than the set
+/// says. A suggestion: nothing is changed by it.
+struct ChannelSlip {
+  std::string experiment;
+  std::string column;   ///< empty: the whole record
+  std::string kind;     ///< offset, sign, unit, gain, axis, swapped, start or delay
+  double factor = 1;    ///< record = factor * truth + constant
+  double constant = 0;  ///< [the channel's unit]
+  double delay = 0;     ///< [s] by which the record's times are late
+  std::string shows;    ///< the axis or column that it shows instead
+  double before = 0;    ///< what is left, in times the noise
+  double after = 0;     ///< with the slip mended
+  std::string text;     ///< in words
 };
 
 struct ExperimentFit {
   Eigen::MatrixXd simulated;  ///< with offsets; a row per sample, a column per channel
   std::vector<ChannelFit> channels;
+  bool left_out = false;  ///< the record counted for nothing
 };
 
 struct Estimation {
@@ -75,7 +110,8 @@ struct Estimation {
   std::vector<ParameterScatter> scatter;  ///< between records; it is in the intervals
   CableKeys cable;                        ///< the set's, with the determined parameters filled in
   std::vector<std::string> warnings;
-  double discretisation = 0;  ///< what the steps did to the records, corrected; parts of range
+  std::vector<ChannelSlip> slips;  ///< what would explain records that do not fit
+  double discretisation = 0;       ///< what the steps did to the records, corrected; parts of range
   double seconds = 0;
 };
 

@@ -1,0 +1,55 @@
+// What is written of an identification.
+#include "../../src/identification/answer.h"
+
+#include <gtest/gtest.h>
+
+namespace cosserat_cable {
+namespace {
+
+ParameterEstimate Estimated(const std::string& name, double value, double low, double high) {
+  ParameterEstimate one;
+  one.unknown.name = name;
+  one.determined = true;
+  one.value = value;
+  one.sd = 0.1 * value;
+  one.low = low;
+  one.high = high;
+  return one;
+}
+
+TEST(AnswerTest, TheIdentifiedCableHasTheIntervalsOfTheTableAndMarksExtensions) {
+  Problems problems;
+  MapReader map(YamlValue::Root(
+      "set",
+      YAML::Load("length: 0.25\ndiameter: 0.006\nmass_per_length: 0.05\nEI1: 0.003\nEI2: 0.006\n"
+                 "GJ: 0.0019\neta_EI: 1.0e-6\neta_GJ: 1.0e-6\n"
+                 "extensions: {maxwell: [{tau: 0.1, EI: 0.001}, {tau: 2, GJ: 0.001}],\n"
+                 "             clamp_compliance: {a: {bending: 5}}}\n"),
+      &problems));
+  MeasurementSet set;
+  set.cable = ReadCableKeys(&map);
+  set.cable_mark = map.mark();
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  Estimation estimation;
+  estimation.cable = set.cable;
+  // Neither is 1.96 sd to both sides.
+  estimation.parameters = {Estimated("EI", 0.003, 0.0021, 0.0045),
+                           Estimated("extensions.maxwell[0].EI", 0.001, 0.0004, 0.0013),
+                           Estimated("extensions.clamp_compliance.a.bending", 5, 4, 7)};
+  ParameterEstimate hidden;
+  hidden.unknown.name = "extensions.maxwell[1].tau";
+  hidden.reason = "no record shows it";
+  estimation.parameters.push_back(hidden);
+  const std::string text = IdentifiedCableText(set, estimation);
+  for (const char* part : {"EI1: 0.003  # identified, 95 % from 0.0021 to 0.0045\n",
+                           "EI2: 0.006  # identified with EI1, in proportion\n",
+                           "  # maxwell[0].EI identified, 95 % from 0.0004 to 0.0013; "
+                           "maxwell[1].tau not determined by the data: no record shows it\n",
+                           "  # clamp_compliance.a.bending identified, 95 % from 4 to 7\n"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "in\n" << text;
+  // It is a cable file still.
+  EXPECT_TRUE(YAML::Load(text)["cable"]["extensions"]["maxwell"][0]["EI"]);
+}
+
+}  // namespace
+}  // namespace cosserat_cable

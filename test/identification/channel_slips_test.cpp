@@ -1,0 +1,183 @@
+// Slips of calibration are named, and good records have none. That they are found in data of
+// another simulation is for test/tools/identify_test.
+#include "../../src/identification/channel_slips.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "../measurement/rigs.h"
+
+namespace cosserat_cable {
+namespace {
+
+using testing::CableSpecimen;
+
+constexpr double kDeflection = 0.04, kNoise = 1e-4;  // [m]
+constexpr double kInterval = 0.01;                   // [s]
+constexpr int kCount = 151;
+
+MeasurementSet SetWith(const Experiment& experiment, const char* uncertain) {
+  MeasurementSet set;
+  const std::string text = std::string("length: 0.25\n") +
+                           "diameter: 0.006\nmass_per_length: 0.05\nEI: 0.003\nGJ: 0.0019\n" +
+                           "eta_EI: 1.0e-5\neta_GJ: 4.0e-6\nuncertain: " + uncertain + "\n";
+  Problems problems;
+  MapReader map(YamlValue::Root("set", YAML::Load(text), &problems));
+  set.cable = ReadCableKeys(&map);
+  set.cable_mark = map.mark();
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+  set.experiments = {experiment};
+  return set;
+}
+
+void Record(const Specimen& specimen, double noise, Experiment* experiment) {
+  const SimulatedRecord record = SimulateRefined(*experiment, specimen, {}).record;
+  ASSERT_TRUE(record.ok) << record.message;
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0, noise);
+  experiment->record.values = record.values.unaryExpr([&](double y) { return y + normal(random); });
+}
+
+/// A cantilever along x that falls back from a pull along z, seen along z and x.
+Experiment Swinging() {
+  Experiment experiment = testing::RingDown(kDeflection, kInterval * (kCount - 1), kCount);
+  experiment.channels.push_back(
+      testing::ChannelAt(CableSpecimen().cable.length, Quantity::kPosition, 0));
+  experiment.channels[0].column = "tip_z";
+  experiment.channels[1].column = "tip_x";
+  Record(CableSpecimen(), kNoise, &experiment);
+  return experiment;
+}
+
+Experiment OnlyZ(Experiment experiment) {
+  experiment.channels.resize(1);
+  experiment.record.values = experiment.record.values.leftCols(1).eval();
+  return experiment;
+}
+
+Estimation Fitted(const Experiment& experiment, const char* uncertain = "[EI, eta_EI]") {
+  EstimationOptions options;
+  options.profiles = options.scatter = false;
+  Problems problems;
+  const Estimation estimation = Estimate(SetWith(experiment, uncertain), options, &problems);
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+  EXPECT_TRUE(estimation.ok) << estimation.message;
+  return estimation;
+}
+
+/// The only slip, or nothing of a kind.
+ChannelSlip OnlySlip(const Estimation& estimation) {
+  std::string all;
+  for (const ChannelSlip& slip : estimation.slips) all += slip.text + "\n";
+  EXPECT_EQ(estimation.slips.size(), 1u) << all;
+  if (estimation.slips.size() != 1) return {};
+  // With the slip mended, noise is left: within a factor for what steps and search leave.
+  EXPECT_LT(estimation.slips[0].after, 2.0);
+  EXPECT_GT(estimation.slips[0].before, 5.0);
+  return estimation.slips[0];
+}
+
+TEST(ChannelSlipsTest, AGoodRecordHasNone) {
+  const Estimation estimation = Fitted(Swinging());
+  EXPECT_TRUE(estimation.slips.empty()) << estimation.slips[0].text;
+  for (const ChannelFit& channel : estimation.experiments[0].channels) {
+    EXPECT_FALSE(channel.misfit) << channel.column;
+    EXPECT_NEAR(channel.times_noise, 1, 0.4) << channel.column;  // 151 samples: 24 %
+  }
+}
+
+TEST(ChannelSlipsTest, AZeroBesideTheClampIsAConstant) {
+  Experiment experiment = Swinging();
+  experiment.record.values.col(0).array() += 0.004;
+  const Estimation estimation = Fitted(experiment);
+  const ChannelSlip slip = OnlySlip(estimation);
+  EXPECT_EQ(slip.column, "tip_z");
+  EXPECT_EQ(slip.kind, "offset");
+  EXPECT_NEAR(slip.constant, 0.004, 1e-4);  // the noise's mean, and what EI takes of it
+  EXPECT_NE(slip.text.find("a constant of 4.0 mm: `offset: unknown`?"), std::string::npos)
+      << slip.text;
+}
+
+TEST(ChannelSlipsTest, AMirroredAxisIsASign) {
+  Experiment experiment = OnlyZ(Swinging());
+  experiment.record.values *= -1;
+  const Estimation estimation = Fitted(experiment);
+  const ChannelSlip slip = OnlySlip(estimation);
+  EXPECT_EQ(slip.kind, "sign");
+  EXPECT_EQ(slip.text, "tip_z fits with its sign turned");
+  for (const ParameterEstimate& one : estimation.parameters) {
+    if (one.determined) continue;
+    EXPECT_NE(one.reason.find("sign turned"), std::string::npos) << one.reason;
+  }
+  for (const std::string& warning : estimation.warnings)
+    EXPECT_EQ(warning.find("nothing but noise"), std::string::npos) << warning;
+}
+
+TEST(ChannelSlipsTest, AScaleIsAFactor) {
+  Experiment experiment = Swinging();
+  experiment.record.values.col(0) *= 1.8;
+  const ChannelSlip slip = OnlySlip(Fitted(experiment));
+  EXPECT_EQ(slip.column, "tip_z");
+  EXPECT_EQ(slip.kind, "gain");
+  EXPECT_NEAR(slip.factor, 1.8, 0.01);
+}
+
+TEST(ChannelSlipsTest, MetresThatWereTakenForMillimetres) {
+  Experiment experiment = OnlyZ(Swinging());
+  experiment.record.values *= 1e3;
+  const ChannelSlip slip = OnlySlip(Fitted(experiment));
+  EXPECT_EQ(slip.kind, "unit");
+  EXPECT_EQ(slip.text, "tip_z fits as millimetres (factor 0.001)");
+}
+
+TEST(ChannelSlipsTest, AxesThatWereExchanged) {
+  Experiment experiment = Swinging();
+  experiment.record.values.col(0).swap(experiment.record.values.col(1));
+  const Estimation estimation = Fitted(experiment);
+  ASSERT_EQ(estimation.slips.size(), 2u);
+  EXPECT_EQ(estimation.slips[0].kind, "swapped");
+  EXPECT_EQ(estimation.slips[0].shows, "tip_x");
+  EXPECT_EQ(estimation.slips[1].shows, "tip_z");
+}
+
+TEST(ChannelSlipsTest, ACameraThatRanBeforeTheRelease) {
+  Experiment experiment = OnlyZ(Swinging());
+  constexpr int kStill = 40;
+  std::mt19937 random(9);
+  std::normal_distribution<double> normal(0, kNoise);
+  Eigen::MatrixXd values(kCount + kStill, 1);
+  for (int i = 0; i < kStill; ++i) values(i, 0) = kDeflection + normal(random);
+  values.bottomRows(kCount) = experiment.record.values;
+  experiment.record.values = values;
+  for (int i = 0; i < kStill; ++i) experiment.record.t.push_back(kInterval * (kCount + i));
+  const ChannelSlip slip = OnlySlip(Fitted(experiment));
+  EXPECT_EQ(slip.kind, "start");
+  EXPECT_NEAR(slip.delay, kStill * kInterval, 0.2 * kInterval);
+  EXPECT_EQ(slip.text, "still until 0.40 s: let go there?");
+}
+
+TEST(ChannelSlipsTest, DegreesForRadians) {
+  const double J = 2e-6;
+  Experiment experiment = testing::Torsion(J, 0.5, 1.0, 201);
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = J;
+  Record(specimen, 0.002, &experiment);
+  experiment.record.values *= 180 / testing::kPi;
+  const ChannelSlip slip = OnlySlip(Fitted(experiment, "[GJ, eta_GJ]"));
+  EXPECT_EQ(slip.kind, "unit");
+  EXPECT_NE(slip.text.find("fits as degrees"), std::string::npos) << slip.text;
+}
+
+TEST(ChannelSlipsTest, TimesInMillisecondsAreRefused) {
+  Experiment experiment = Swinging();
+  Problems problems;
+  CheckClocks(SetWith(experiment, "[EI]"), &problems);
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+  for (double& t : experiment.record.t) t *= 1e3;
+  CheckClocks(SetWith(experiment, "[EI]"), &problems);
+  EXPECT_NE(problems.ToString().find("in ms"), std::string::npos) << problems.ToString();
+}
+
+}  // namespace
+}  // namespace cosserat_cable
