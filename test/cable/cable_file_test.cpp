@@ -321,7 +321,7 @@ TEST(CableFile, ReportsUncertainAndAvoidThatNameNothingKnown) {
   EXPECT_EQ(SaidWith("  avoid: [arm, wheel, arm]\n"),
             "f:9: cable.avoid[2]: got 'arm' twice, expected it once\n");
   EXPECT_EQ(SaidWith("  avoid: [arm, {link: arm, use_visual: true}]\n"),
-            "f:9: cable.avoid[1].link: got 'arm' twice, expected it once\n");
+            "f:9: cable.avoid[1]: got 'arm' twice, expected it once\n");
   EXPECT_EQ(SaidWith("  avoid: [{link: arm, use_visaul: true}]\n"),
             "f:9: cable.avoid[0].use_visaul: got an unknown key, did you mean 'use_visual'?\n");
   EXPECT_EQ(SaidWith("  use_visual: 1\n"),
