@@ -148,13 +148,34 @@ class ExperimentLooks {
     }
   }
 
-  // Says a slip of units where most samples show it, outliers where few do.
+  // Says the slip, one of units if nothing else, where most samples show it; outliers where few do.
   void Judge(const std::string& file, int line, const std::string& key, std::size_t beyond,
-             std::size_t of, const std::string& message) {
+             std::size_t of, const std::string& message, const std::string& slip = "is it in mm?") {
     if (beyond == 0) return;
-    const bool unit = static_cast<double>(beyond) > kOutliers * static_cast<double>(of);
-    (unit ? problems_ : warnings_)
-        ->Add(file, line, key, message + (unit ? ": is it in mm?" : ": an outlier?"));
+    const bool most = static_cast<double>(beyond) > kOutliers * static_cast<double>(of);
+    (most ? problems_ : warnings_)
+        ->Add(file, line, key, message + ": " + (most ? slip : "an outlier?"));
+  }
+
+  double Origin(const Channel& channel, Eigen::Index i) const {
+    const double t = experiment_.record.t[static_cast<std::size_t>(i)];
+    return channel.in_frame_a ? 0 : PositionAt(experiment_.a, t)[channel.axis];
+  }
+
+  /// Which slip would bring a channel within the cable's reach that is not.
+  std::string SlipOfReach(const Channel& channel, const Eigen::VectorXd& values) const {
+    const auto reaches = [&](double factor) {
+      Eigen::Index beyond = 0;
+      for (Eigen::Index i = 0; i < values.size(); ++i)
+        if (std::abs(factor * values[i] - Origin(channel, i)) > reach_) ++beyond;
+      return static_cast<double>(beyond) <= kOutliers * static_cast<double>(values.size());
+    };
+    const bool moves_little = values.maxCoeff() - values.minCoeff() <= 2 * reach_;
+    if (reaches(-1)) return "is its sign turned?";
+    if (moves_little && reaches(1e-3))
+      return "is it in mm, or its zero another one (`offset: unknown`)?";
+    if (moves_little) return "is its zero another one (`offset: unknown`)?";
+    return "is it in mm?";
   }
 
   void CheckReach(const Channel& channel, const Eigen::VectorXd& values) {
@@ -169,9 +190,7 @@ class ExperimentLooks {
     Eigen::Index worst = 0;
     double farthest = reach_;
     for (Eigen::Index i = 0; i < values.size(); ++i) {
-      const double t = experiment_.record.t[static_cast<std::size_t>(i)];
-      const double origin = channel.in_frame_a ? 0 : PositionAt(experiment_.a, t)[channel.axis];
-      const double distance = std::abs(values[i] - origin);
+      const double distance = std::abs(values[i] - Origin(channel, i));
       if (distance > reach_) ++beyond;
       if (distance <= farthest) continue;
       farthest = distance;
@@ -180,7 +199,8 @@ class ExperimentLooks {
     const auto size = static_cast<std::size_t>(values.size());
     Judge(path_, LineOf(worst), channel.column, beyond, size,
           "is " + FormatRounded(farthest) + " m from clamp a here and farther than the cable's " +
-              length_ + " in " + Count(beyond, size));
+              length_ + " in " + Count(beyond, size),
+          beyond > 0 ? SlipOfReach(channel, values) : "");
   }
 
   void CheckAngle(const Channel& channel, const Eigen::VectorXd& values) {

@@ -107,6 +107,12 @@ TEST(Plausibility, Millimetres) {
   EXPECT_NE(looks.problems.find("is it in mm?"), std::string::npos);
 }
 
+TEST(Plausibility, AnotherZero) {
+  const Looks looks = Look([](int, double x) { return x + 3; });
+  EXPECT_NE(looks.problems.find("or its zero another one (`offset: unknown`)?"), std::string::npos)
+      << looks.problems;
+}
+
 TEST(Plausibility, Outliers) {
   const Looks looks = Look([](int i, double x) { return i == 50 || i == 60 ? x + 0.01 * i : x; });
   EXPECT_EQ(looks.problems, "");
