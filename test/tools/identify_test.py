@@ -161,7 +161,7 @@ class Identify(unittest.TestCase):
             self.assertLess(abs(channel['misfit'] - 1), NOISE, channel)
 
     def test_slips_of_channels_are_named(self):
-        truth = self.generate('wire', '--snr', 40)
+        self.generate('wire', '--snr', 40)
         with open(self.path('set', 'measurement.yaml')) as file:
             channels = [[channel['column'] for channel in experiment['channels']]
                         for experiment in yaml.safe_load(file)['experiments']]
@@ -193,7 +193,6 @@ class Identify(unittest.TestCase):
         for experiment in ('ringdown_1', 'ringdown_2'):
             self.assertTrue(any(warning.startswith(experiment) and 'more than its noise' in warning
                                 for warning in answer['warnings']), answer['warnings'])
-        self.assertGreater(truth['EI'], 0)
 
     def test_real_three_point_bending_is_not_explained_by_one_stiffness(self):
         if not os.path.exists(REAL):

@@ -138,18 +138,6 @@ Mat3<T> CrossTimes(const Vec3<T>& v, const Mat3<T>& a) {
   }
   return c;
 }
-/// a diag(d)
-template <class T>
-Mat3<T> ScaleColumns(const Mat3<T>& a, const Vec3<T>& d) {
-  Mat3<T> c;
-#pragma GCC unroll 3
-  for (int i = 0; i < 3; ++i) {
-    c[i][0] = a[i][0] * d.x;
-    c[i][1] = a[i][1] * d.y;
-    c[i][2] = a[i][2] * d.z;
-  }
-  return c;
-}
 /// diag(d) a
 template <class T>
 Mat3<T> ScaleRows(const Vec3<T>& d, const Mat3<T>& a) {
