@@ -24,6 +24,10 @@ int main(int argc, char** argv) {
                  "it with the parameters");
   app.add_option("--uncertain-length", options.unknowns.length_sd,
                  "free lengths are wrong by about this [m]: estimate them with the parameters");
+  app.add_option("--time-limit", options.time_limit,
+                 "end with what was found when the fit has taken this long [s]; 0: when it is done")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_flag("--use-damaged", options.use_damaged,
                "use what is left of records that are clipped, frozen, gappy or shorter than a "
                "period; otherwise they count for nothing");

@@ -123,7 +123,10 @@ json SlipJson(const ChannelSlip& slip) {
 }  // namespace
 
 json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
-  json answer = {{"format", 1}, {"set", set.folder}, {"seconds", estimation.seconds}};
+  json answer = {{"format", 1},
+                 {"set", set.folder},
+                 {"seconds", estimation.seconds},
+                 {"converged", estimation.converged}};
   answer["parameters"] = json::object();
   answer["undetermined"] = json::object();
   answer["nuisances"] = json::object();
@@ -199,6 +202,13 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
   answer["slips"] = json::array();
   for (const ChannelSlip& slip : estimation.slips) answer["slips"].push_back(SlipJson(slip));
   answer["discretisation"] = estimation.discretisation;
+  answer["stages"] = json::array();
+  for (const StageCost& stage : estimation.stages)
+    answer["stages"].push_back({{"stage", stage.name},
+                                {"seconds", stage.seconds},
+                                {"simulations", stage.count.simulations},
+                                {"steps", stage.count.steps},
+                                {"element_steps", stage.count.element_steps}});
   answer["warnings"] = estimation.warnings;
   return answer;
 }

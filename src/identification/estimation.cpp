@@ -1,7 +1,8 @@
 #include "cosserat_cable/identification/estimation.h"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -35,6 +36,11 @@ constexpr double kSilentBase = 20, kSilentPerLog = 4;
 // What the simulation's remaining error may move any parameter by, in its standard deviations, and
 // the part of the noise below which a sample has none.
 constexpr double kMostShift = 0.2, kResolved = 0.5;
+// Squared norm of a derivative, by an unknown's scale, that shows nothing of it; and what keeps
+// directions that the records do not show from passing for some that they do.
+constexpr double kUnshown = 1e-3, kRidge = 1e-10;
+// Times the noise.
+constexpr double kFarMore = 30;
 // Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
 constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
 // How often what differs between records is estimated anew, and the change that ends it.
@@ -60,10 +66,17 @@ double Rms(const Eigen::VectorXd& values) {
 class Work {
  public:
   Work(const Unknowns& unknowns, const EstimationOptions& options)
-      : unknowns_(unknowns), options_(options), model_(unknowns) {}
+      : unknowns_(unknowns), options_(options), model_(unknowns) {
+    model_.SetStop([this] { return Stopped() || OutOfTime(); });
+  }
+  Work(const Work&) = delete;
 
   /// False: there is none, and Answer says why.
   bool FitFromStart();
+  /// Whether the work ended before its time.
+  bool hurried() const { return hurried_; }
+  /// Whether what is left is far more than noise.
+  bool misfit() const { return misfit_; }
   /// From where another fit ended, which knew less of what differs between records.
   bool FitFrom(const Work& before);
   std::vector<ParameterScatter> Scatter() const {
@@ -75,26 +88,33 @@ class Work {
 
  private:
   const std::vector<Experiment>& experiments() const { return unknowns_.set().experiments; }
+  /// What was simulated since the last call belongs to this stage.
+  void Charge(const std::string& stage);
   bool Tell(const std::string& what, double part) {
-    return !options_.progress || options_.progress(what, part);
+    if (options_.progress && !options_.progress(what, part)) stopped_ = true;
+    return !model_.Stopping();
   }
   NoiseLevel Level(std::size_t experiment, int column) const;
   bool MovesBeyondNoise(std::size_t experiment) const;
   Eigen::MatrixXd Counted(std::size_t experiment) const;
-  bool Sharpen(const Eigen::MatrixXd& jacobian);
+  bool Sharpen(const RecordJacobian& jacobian);
   bool ShownByNone(int unknown) const;
   bool UpdateNoise();
   bool FitInRounds();
   bool FitToEnd();
-  bool Interrupted() {
-    estimation_.interrupted = true;
-    return false;
+  bool Stopped() const { return stopped_ || (options_.stop && options_.stop()); }
+  bool OutOfTime() const {
+    return options_.time_limit > 0 &&
+           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
   }
+  bool Hurry();
+  void LoosenNoise();
   void LeaveOut(std::size_t experiment, const std::string& why);
   void LeaveOutDamaged();
   void LeaveOutShort();
   bool LeaveOutSilent();
   bool Conclude();
+  void FindColours();
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
   void ReportChannels();
@@ -105,11 +125,30 @@ class Work {
   RecordModel model_;
   NoiseLevels noise_;
   Optimum optimum_;
+  Eigen::VectorXd steps_;  // of the differences, in the unknowns' scales
+  FitResult fit_;          // the last one of whole records
+  std::atomic<bool> stopped_{false};
+  bool hurried_ = false;
+  bool misfit_ = false;  // what is left is far more than noise: it takes no precision to see
+  std::string end_;      // why the fit is no minimum; empty where it is
   Records simulated_;
   std::vector<std::vector<NoiseColour>> colours_;
   Estimation estimation_;
-  Clock::time_point begin_ = Clock::now();
+  Clock::time_point begin_ = Clock::now(), charged_at_ = begin_;
+  SimulationCount charged_;
 };
+
+void Work::Charge(const std::string& stage) {
+  const Clock::time_point now = Clock::now();
+  auto& stages = estimation_.stages;
+  auto place = std::find_if(stages.begin(), stages.end(),
+                            [&](const StageCost& one) { return one.name == stage; });
+  if (place == stages.end()) place = stages.insert(place, {stage, 0, {}});
+  place->seconds += std::chrono::duration<double>(now - charged_at_).count();
+  place->count += model_.count() - charged_;
+  charged_ = model_.count();
+  charged_at_ = now;
+}
 
 /// One for samples that a sensor measured and the simulation resolves; all that were measured where
 /// it hardly resolves any.
@@ -127,17 +166,24 @@ Eigen::MatrixXd Work::Counted(std::size_t e) const {
 /// Finer runs behind the corrections of experiments whose remaining errors move the parameters: by
 /// no more, in standard deviations of any of them, than the part of the error that lies in the
 /// derivatives' space is long.
-bool Work::Sharpen(const Eigen::MatrixXd& jacobian) {
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(jacobian);
-  const Eigen::MatrixXd space =
-      qr.householderQ() * Eigen::MatrixXd::Identity(jacobian.rows(), jacobian.cols());
+bool Work::Sharpen(const RecordJacobian& jacobian) {
+  // The part of an error e in the derivatives' space: |R^-T J^T e|, with R^T R = J^T J.
+  const Eigen::MatrixXd gram = jacobian.Gram();
+  const Eigen::VectorXd unit =
+      gram.diagonal().unaryExpr([](double x) { return x > kUnshown ? 1 / std::sqrt(x) : 0.0; });
+  Eigen::MatrixXd normal = unit.asDiagonal() * gram * unit.asDiagonal();
+  normal.diagonal().array() += kRidge;
+  const Eigen::LLT<Eigen::MatrixXd> factor(normal);
   bool sharper = false;
-  Eigen::Index row = 0;
   for (std::size_t e = 0; e < experiments().size(); ++e) {
     const Eigen::MatrixXd error = model_.error()[e].cwiseProduct(SampleWeights(model_, e, noise_));
     const Eigen::Map<const Eigen::VectorXd> column(error.data(), error.size());
-    const double shift = (space.middleRows(row, error.size()).transpose() * column).norm();
-    row += error.size();
+    const RecordJacobian::Record& record = jacobian.records()[e];
+    const Eigen::VectorXd part = record.columns.transpose() * column;
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(gram.rows());
+    for (std::size_t k = 0; k < record.unknowns.size(); ++k)
+      all[record.unknowns[k]] = unit[record.unknowns[k]] * part[static_cast<Eigen::Index>(k)];
+    const double shift = factor.matrixL().solve(all).norm();
     if (shift > kMostShift) sharper |= model_.Sharpen(static_cast<int>(e));
   }
   return sharper;
@@ -159,48 +205,114 @@ bool Work::UpdateNoise() {
   return changed;
 }
 
+/// False: stopped, or there is no fit and `message` says why.
 bool Work::FitInRounds() {
-  FitResult fit;
   bool noise_changed = true;
+  double last_move = 0;
   for (int round = 0; round < kMaxRounds; ++round) {
-    if (!Tell("comparing with finer steps", kPartOfStart + kPartOfRound * round))
-      return Interrupted();
-    estimation_.discretisation = model_.Refine(optimum_.values);
+    if (!Tell("comparing with finer steps", kPartOfStart + kPartOfRound * round)) return false;
+    estimation_.discretisation = model_.Refine(optimum_.values, noise_);
+    Charge("steps in space and time");
     const Eigen::VectorXd before = optimum_.values;
-    const bool polished = !noise_changed && Polish(model_, fit.jacobian, noise_, &optimum_.values);
-    if (!polished) {
-      const FitProgress progress = [&](const std::string& what) {
-        return Tell("fitting whole records, " + what, kPartOfStart + kPartOfRound * (round + 0.5));
-      };
-      fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {}, progress);
-      if (fit.interrupted) return Interrupted();
-      if (!fit.ok) {
+    const FitProgress progress = [&](const std::string& what) {
+      return Tell("fitting whole records, " + what, kPartOfStart + kPartOfRound * (round + 0.5));
+    };
+    if (noise_changed || !Polish(model_, fit_.jacobian, noise_, &optimum_.values)) {
+      FitOptions options;
+      options.steps = fit_.steps;
+      options.to_noise = !misfit_;
+      const FitResult fit =
+          Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, options, progress);
+      if (!fit.ok && round == 0) {
         estimation_.message = "the fit does not converge: " + fit.message;
         return false;
       }
-      optimum_.values = fit.values;
+      if (!fit.ok) {
+        // With finer steps the cable cannot be simulated there: what was found before stands.
+        end_ = "finer steps do not simulate the cable as it was found: " + fit.message;
+        return !model_.Stopping();
+      }
+      fit_ = fit;
+      optimum_.values = fit_.values;
+      if (fit_.interrupted) return false;
     }
-    simulated_ = model_.Simulate({optimum_.values}, model_.WholeHorizon()).front().records;
+    steps_ = fit_.steps;
+    Charge("fit");
+    const RecordModel::Simulated found =
+        model_.Simulate({optimum_.values}, model_.WholeHorizon()).front();
+    if (!found.ok) return false;
+    simulated_ = found.records;
     noise_changed = UpdateNoise();
-    // Against the standard deviations of the unknowns by themselves: the strictest measure.
-    double moved = 0;
-    for (int i = 0; i < unknowns_.size(); ++i)
-      moved = std::max(moved, std::abs(optimum_.values[i] - before[i]) / unknowns_.all()[i].scale *
-                                  fit.jacobian.col(i).norm());
-    const bool sharper = Sharpen(fit.jacobian);
-    if (round > 0 && !noise_changed && !sharper && moved < kSettled) break;
+    // In standard deviations, over all unknowns together.
+    Eigen::VectorXd moved_by = optimum_.values - before;
+    for (int i = 0; i < unknowns_.size(); ++i) moved_by[i] /= unknowns_.all()[i].scale;
+    const double moved = std::sqrt(moved_by.dot(fit_.jacobian.Gram() * moved_by));
+    const bool sharper = !misfit_ && Sharpen(fit_.jacobian);
+    // Corrections follow the values, and the values the corrections: by the same part each time.
+    const double next = last_move > moved ? moved * moved / last_move : moved;
+    last_move = moved;
+    if (round > 0 && (misfit_ || (!noise_changed && !sharper && next < kSettled))) break;
   }
+  end_ = fit_.at_minimum
+             ? ""
+             : "no step gains anything, although some should: the records' misfit is rough";
   return true;
 }
 
 bool Work::FitToEnd() {
-  if (!FitInRounds()) return false;
+  if (!FitInRounds()) return Hurry();
   LeaveOutShort();
   // What was left out has pulled at the rest until now.
-  if (LeaveOutSilent() && !FitInRounds()) return false;
-  if (Conclude()) return true;
-  estimation_.interrupted = estimation_.message.empty();
-  return false;
+  if (LeaveOutSilent() && !FitInRounds()) return Hurry();
+  return Conclude() || Hurry();
+}
+
+/// Ends with what was found so far, as fast as it can. False: nothing was found, or there was no
+/// hurry, and `message` says why.
+bool Work::Hurry() {
+  if (!model_.Stopping()) return false;
+  estimation_.interrupted = Stopped();
+  model_.SetStop(nullptr);
+  hurried_ = true;
+  estimation_.message.clear();
+  end_ = estimation_.interrupted
+             ? "interrupted"
+             : "the time limit of " + FormatRounded(options_.time_limit) + " s was reached";
+  RecordModel::Simulated found = model_.Simulate({optimum_.values}, model_.WholeHorizon()).front();
+  if (!found.ok) {
+    estimation_.message = found.message;
+    return false;
+  }
+  simulated_ = std::move(found.records);
+  UpdateNoise();
+  optimum_.residuals = WeightedResiduals(model_, optimum_.values, simulated_, noise_);
+  optimum_.jacobian = fit_.jacobian;
+  Eigen::Index rows = 0;
+  for (const RecordJacobian::Record& record : fit_.jacobian.records())
+    rows += record.columns.rows();
+  if (rows < FirstRow(model_, static_cast<int>(experiments().size()))) {
+    Eigen::VectorXd steps = model_.SmallSteps();
+    Linearised last = Linearise(model_, optimum_.values, model_.WholeHorizon(), noise_,
+                                RecordModel::Difference::kForward, false, &steps);
+    if (!last.ok) {
+      estimation_.message = last.message;
+      return false;
+    }
+    optimum_.jacobian = std::move(last.jacobian);
+  }
+  FindColours();
+  Charge("derivatives at the end");
+  return true;
+}
+
+void Work::FindColours() {
+  colours_.clear();
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    colours_.emplace_back();
+    for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c)
+      colours_.back().push_back(ColourOf(
+          CountedResiduals(experiments()[e], simulated_[e], Counted(e), c) / noise_[e][c]));
+  }
 }
 
 /// Whether all records that the unknown concerns count for nothing.
@@ -308,22 +420,17 @@ bool Work::LeaveOutSilent() {
 
 /// Derivatives, residuals and their colour at the optimum.
 bool Work::Conclude() {
-  const RecordModel::Derivatives found = model_.Differentiate(
-      optimum_.values, model_.WholeHorizon(), RecordModel::Difference::kCentral);
-  if (!found.at.ok) {
-    estimation_.message = found.at.message;
+  Linearised found = Linearise(model_, optimum_.values, model_.WholeHorizon(), noise_,
+                               RecordModel::Difference::kCentral, false, &steps_);
+  if (!found.ok) {
+    estimation_.message = found.message;
     return false;
   }
-  simulated_ = found.at.records;
-  optimum_.jacobian = WeightedJacobian(model_, found, noise_);
-  optimum_.residuals = WeightedResiduals(model_, optimum_.values, simulated_, noise_);
-  colours_.clear();
-  for (std::size_t e = 0; e < experiments().size(); ++e) {
-    colours_.emplace_back();
-    for (int c = 0; c < static_cast<int>(experiments()[e].channels.size()); ++c)
-      colours_.back().push_back(ColourOf(
-          CountedResiduals(experiments()[e], simulated_[e], Counted(e), c) / noise_[e][c]));
-  }
+  simulated_ = std::move(found.simulated);
+  optimum_.jacobian = std::move(found.jacobian);
+  optimum_.residuals = std::move(found.residuals);
+  Charge("derivatives at the end");
+  FindColours();
   return true;
 }
 
@@ -396,13 +503,9 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
   for (const int i : determination.determined)
     if (unknowns_.all()[i].kind == Unknown::Kind::kCable) shown.push_back(i);
   std::vector<Profile> profiles(shown.size());
-  // A start is far from what one step of the profile mends: the interval would be far too narrow.
-  const bool starts_unknown =
-      std::any_of(unknowns_.all().begin(), unknowns_.all().end(), [](const Unknown& one) {
-        return one.kind == Unknown::Kind::kSwing || one.kind == Unknown::Kind::kSpeed;
-      });
-  if (options_.profiles && !starts_unknown && Tell("profiles of the likelihood", 0.85))
+  if (options_.profiles && !hurried_ && Tell("profiles of the likelihood", 0.85))
     profiles = FindProfiles(model_, optimum_, noise_, shown);
+  Charge("profiles");
 
   const Eigen::VectorXd fitted = optimum_.values;
   const Eigen::VectorXd sds = determination.covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -424,7 +527,7 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
       const auto place = std::find(shown.begin(), shown.end(), i);
       if (place != shown.end()) {
         estimate.profile = profiles[static_cast<std::size_t>(place - shown.begin())];
-        if (const auto interval = IntervalOf(estimate.profile, estimate.value)) {
+        if (const auto interval = IntervalOf(estimate.profile, estimate.value, estimate.sd)) {
           const double wider = quantile / kNormal95;
           estimate.low = estimate.value + wider * (interval->first - estimate.value);
           estimate.high = estimate.value + wider * (interval->second - estimate.value);
@@ -438,7 +541,7 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
   estimation_.correlation = inverse.asDiagonal() * determination.covariance * inverse.asDiagonal();
   estimation_.combinations = determination.combinations;
 
-  KeepDefaults(determination);
+  if (!hurried_) KeepDefaults(determination);
   for (int i = 0; i < unknowns_.size(); ++i)
     if (!estimation_.parameters[i].determined) estimation_.parameters[i].value = optimum_.values[i];
   Eigen::VectorXd values = optimum_.values;
@@ -451,6 +554,9 @@ void Work::Report(const std::vector<ParameterScatter>& scatter) {
         " records that show it by more than their noise: standard deviation " +
         FormatRounded(one.sd) + " " + UnitOf(one.name) + "; the intervals count it");
   ReportChannels();
+  estimation_.converged = end_.empty();
+  if (!end_.empty())
+    estimation_.warnings.push_back("these are the best values so far, and no minimum: " + end_);
   estimation_.ok = true;
   estimation_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
 }
@@ -470,14 +576,31 @@ bool Work::FitFromStart() {
   LeaveOutDamaged();
   const FitProgress early = [&](const std::string& what) { return Tell(what, 0.1); };
   const FitResult start = FitFromAfar(&model_, guesses, noise_, early);
+  Charge("search");
   if (!start.ok) {
-    estimation_.interrupted = start.interrupted;
+    estimation_.interrupted = model_.Stopping();
     estimation_.message =
         "no start was found from which the records can be simulated: " + start.message;
     return false;
   }
   optimum_.values = start.values;
+  if (start.interrupted) return Hurry();
+  LoosenNoise();
   return FitToEnd();
+}
+
+/// Where far more than noise is left, that is what weighs the channels: the noise would only say
+/// which of them is measured best.
+void Work::LoosenNoise() {
+  const RecordModel::Simulated found =
+      model_.Simulate({optimum_.values}, model_.WholeHorizon()).front();
+  if (!found.ok) return;
+  const Eigen::VectorXd residuals =
+      WeightedResiduals(model_, optimum_.values, found.records, noise_);
+  misfit_ = residuals.squaredNorm() > kFarMore * kFarMore * static_cast<double>(residuals.size());
+  if (!misfit_) return;
+  simulated_ = found.records;
+  UpdateNoise();
 }
 
 bool Work::FitFrom(const Work& before) {
@@ -490,6 +613,7 @@ bool Work::FitFrom(const Work& before) {
   for (std::size_t e = 0; e < experiments().size(); ++e)
     if (before.model_.IsLeftOut(static_cast<int>(e))) model_.LeaveOut(static_cast<int>(e));
   estimation_.warnings = before.estimation_.warnings;
+  estimation_.stages = before.estimation_.stages;
   begin_ = before.begin_;
   return FitToEnd();
 }
@@ -504,8 +628,15 @@ bool Settled(const std::vector<ParameterScatter>& before,
 
 }  // namespace
 
-Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
-                    Problems* problems) {
+Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, Problems* problems) {
+  // Progress only goes forward, also where a part of the work is done again.
+  EstimationOptions options = given;
+  double farthest = 0;
+  if (given.progress)
+    options.progress = [&](const std::string& what, double part) {
+      farthest = std::max(farthest, part);
+      return given.progress(what, farthest);
+    };
   UnknownOptions unknown_options = options.unknowns;
   auto unknowns = std::make_unique<Unknowns>(set, unknown_options, problems);
   if (problems->empty()) {
@@ -521,7 +652,8 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
   }
   auto work = std::make_unique<Work>(*unknowns, options);
   if (!work->FitFromStart()) return work->Answer();
-  for (int round = 0; round < kScatterRounds && options.scatter; ++round) {
+  for (int round = 0;
+       round < kScatterRounds && options.scatter && !work->hurried() && !work->misfit(); ++round) {
     const std::vector<ParameterScatter> found = work->Scatter();
     if (Settled(unknown_options.scatter, found)) break;
     unknown_options.scatter = found;
@@ -533,7 +665,7 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& options,
   }
   work->Report(unknown_options.scatter);
   Estimation estimation = work->Answer();
-  if (options.slips) {
+  if (options.slips && !work->hurried()) {
     estimation.slips = FindSlips(set, estimation, options);
     NameSlips(*unknowns, &estimation);
   }

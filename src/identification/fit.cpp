@@ -1,7 +1,5 @@
 #include "fit.h"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
@@ -9,6 +7,9 @@
 #include <optional>
 #include <random>
 
+#include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/rod/rod_batch.h"
+#include "least_squares.h"
 #include "noise.h"
 
 namespace cosserat_cable {
@@ -16,14 +17,21 @@ namespace {
 
 constexpr int kMaxIterations = 40;
 constexpr int kLooseIterations = 12;
-constexpr double kLoose = 1e-3, kTight = 1e-8;  // last relative change of the cost
+// What ends a fit: a gain, by the noise's variance, that moves no parameter by a tenth of its
+// standard deviation; on the way, this part of the samples.
+constexpr double kSmallGain = 5e-3, kLoose = 1e-3;
+// The same where what is left is no noise: its parts depend on each other for long.
+constexpr double kOfMisfit = 1e-4;
+// Of the differences, in the unknowns' scales; what they should do to a record, in parts of its
+// noise, so that they are neither rounding nor bent; below which part of that, and by which factor
+// in the step, it is worth another try.
+constexpr double kSmallestStep = 1e-6, kLargestStep = 0.03, kEffect = 0.3;
+constexpr double kFaintEffect = 0.01, kCoarser = 10;
+// The largest factor of a stiffness in one iteration.
+constexpr double kFarthest = 5;
 // No channel is taken to be better than this part of the widest range of its kind in its record:
 // simulations are not.
 constexpr double kBestChannel = 1e-7;
-// Half of a sum of squares: what moves no parameter by a tenth of its standard deviation. One such
-// step may be a step that was cut short, three in a row are the end.
-constexpr double kSmallGain = 5e-3;
-constexpr int kSmallGains = 3;
 // Parts of the records that are fitted one after the other, and the fewest samples of a part.
 constexpr double kParts[] = {0.06, 0.25, 1.0};
 constexpr int kFewestSamples = 40;
@@ -31,7 +39,7 @@ constexpr int kFewestSamples = 40;
 constexpr double kStartPeriods[] = {0.3, 1.0};
 // Of what is left over, what a parameter should explain at least when it moves by its whole size.
 constexpr double kPower = 0.01;
-const FitOptions kOnTheWay = {true, {}};
+const FitOptions kOnTheWay = {true, true, {}, {}};
 // Where the search looks: around the start, within these factors.
 constexpr double kStiffnessSpread = 1.6, kDampingSpread = 6.0;
 constexpr int kPoints = 24, kBest = 2;
@@ -44,63 +52,106 @@ constexpr int kPolishSteps = 6;
 constexpr double kPolished = 1e-4, kPolishNoise = 1e-2;
 constexpr std::uint32_t kSeed = 20150113;
 
-/// All records against one block of unknowns in units of their scales.
-class RecordCost : public ceres::CostFunction {
+/// Half the sums of squares, infinite where a simulation failed.
+std::vector<double> CostsOf(const RecordModel& model, const std::vector<Eigen::VectorXd>& points,
+                            const std::vector<RecordModel::Simulated>& found,
+                            const NoiseLevels& noise) {
+  std::vector<double> costs;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    costs.push_back(std::numeric_limits<double>::infinity());
+    if (!found[p].ok) continue;
+    const double cost =
+        0.5 * WeightedResiduals(model, points[p], found[p].records, noise).squaredNorm();
+    if (std::isfinite(cost)) costs.back() = cost;
+  }
+  return costs;
+}
+
+/// All records, the unknowns in units of their scales.
+class RecordProblem : public LeastSquaresProblem {
  public:
-  /// `jacobian`: where the last one is left.
-  RecordCost(const RecordModel& model, const Horizon& horizon, const NoiseLevels& noise, int count,
-             Eigen::MatrixXd* jacobian)
-      : model_(model), horizon_(horizon), noise_(noise), jacobian_(jacobian) {
-    mutable_parameter_block_sizes()->push_back(model.unknowns().size());
-    set_num_residuals(count);
+  RecordProblem(const RecordModel& model, const Horizon& horizon, const NoiseLevels& noise,
+                const FitProgress& progress, const Eigen::VectorXd& steps, double samples)
+      : model_(model),
+        horizon_(horizon),
+        noise_(noise),
+        progress_(progress),
+        samples_(samples),
+        steps_(steps) {
+    scales_.resize(model.unknowns().size());
+    for (int i = 0; i < scales_.size(); ++i) scales_[i] = model.unknowns().all()[i].scale;
+    first_ = steps_.size() == 0;
+    if (first_) steps_ = model.SmallSteps();
   }
 
-  bool Evaluate(double const* const* parameters, double* residuals,
-                double** jacobians) const override {
-    const int n = model_.unknowns().size();
-    Eigen::VectorXd values(n);
-    for (int i = 0; i < n; ++i) values[i] = parameters[0][i] * model_.unknowns().all()[i].scale;
-    Eigen::Map<Eigen::VectorXd> out(residuals, num_residuals());
-    if (jacobians && jacobians[0]) {
-      const RecordModel::Derivatives found =
-          model_.Differentiate(values, horizon_, RecordModel::Difference::kForward);
-      if (!found.at.ok) return false;
-      out = WeightedResiduals(model_, values, found.at.records, noise_);
-      const Eigen::MatrixXd jacobian = WeightedJacobian(model_, found, noise_);
-      Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-          jacobians[0], num_residuals(), n) = jacobian;
-      *jacobian_ = jacobian;
-      return true;
-    }
-    const RecordModel::Simulated found = model_.Simulate({values}, horizon_).front();
-    if (!found.ok) return false;
-    out = WeightedResiduals(model_, values, found.records, noise_);
-    return true;
+  Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
+                          std::vector<double>* costs) override {
+    std::vector<Eigen::VectorXd> beside;
+    for (const Eigen::VectorXd& other : others) beside.push_back(other.cwiseProduct(scales_));
+    Linearised found =
+        cosserat_cable::Linearise(model_, x.cwiseProduct(scales_), horizon_, noise_,
+                                  RecordModel::Difference::kForward, first_, &steps_, beside);
+    *costs = found.other_costs;
+    Linearisation at;
+    at.ok = found.ok;
+    message_ = found.message;
+    if (!found.ok) return at;
+    first_ = false;
+    jacobian_ = std::move(found.jacobian);
+    at.cost = 0.5 * found.residuals.squaredNorm();
+    at.gram = jacobian_.Gram();
+    at.gradient = jacobian_.TransposeTimes(found.residuals);
+    // What no record shows is left alone: its derivatives are rounding.
+    const Eigen::VectorXd seen = jacobian_.SquaredNorms();
+    for (int i = 0; i < seen.size(); ++i)
+      if (seen[i] < kUnseen && jacobian_.priors()[i] == 0) at.gram(i, i) = 0;
+    return at;
   }
+
+  std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) override {
+    std::vector<Eigen::VectorXd> all;
+    for (const Eigen::VectorXd& x : points) all.push_back(x.cwiseProduct(scales_));
+    return CostsOf(model_, all, model_.Simulate(all, horizon_), noise_);
+  }
+
+  int SideBySide() const override { return rod::RodBatch::PreferredRods(); }
+  int Room() const override {
+    // What the differences leave of the lanes, or as many lanes more.
+    const int lanes = rod::RodBatch::PreferredRods();
+    return lanes - 1 - model_.MostShown() % lanes;
+  }
+
+  bool GoOn(int iteration, double cost) override {
+    if (model_.Stopping()) return false;
+    const double times_noise = std::sqrt(2 * cost / std::max(samples_, 1.0));
+    return !progress_ || progress_("iteration " + std::to_string(iteration) + ", " +
+                                   FormatRounded(times_noise, 2) + " times the noise");
+  }
+
+  /// No stiffness changes by more than a factor in one step: derivatives do not reach farther.
+  void Restrain(const Eigen::VectorXd& x, Eigen::VectorXd* next) const override {
+    for (int i = 0; i < x.size(); ++i) {
+      const Unknown& u = model_.unknowns().all()[i];
+      if (u.kind == Unknown::Kind::kCable && !u.damping && x[i] > 0)
+        (*next)[i] = std::clamp((*next)[i], x[i] / kFarthest, x[i] * kFarthest);
+    }
+  }
+
+  const RecordJacobian& jacobian() const { return jacobian_; }
+  const Eigen::VectorXd& steps() const { return steps_; }
+  const Eigen::VectorXd& scales() const { return scales_; }
+  const std::string& message() const { return message_; }
 
  private:
   const RecordModel& model_;
   const Horizon& horizon_;
   const NoiseLevels& noise_;
-  Eigen::MatrixXd* jacobian_;
-};
-
-/// Ends a fit where the cost falls no more by what counts beside the noise.
-class Callback : public ceres::IterationCallback {
- public:
-  explicit Callback(const FitProgress& progress) : progress_(progress) {}
-  ceres::CallbackReturnType operator()(const ceres::IterationSummary& summary) override {
-    if (progress_ && !progress_("iteration " + std::to_string(summary.iteration)))
-      return ceres::SOLVER_ABORT;
-    const bool small = summary.iteration > 0 && summary.cost_change < kSmallGain;
-    small_gains_ = small ? small_gains_ + 1 : 0;
-    return small_gains_ >= kSmallGains ? ceres::SOLVER_TERMINATE_SUCCESSFULLY
-                                       : ceres::SOLVER_CONTINUE;
-  }
-
- private:
   const FitProgress& progress_;
-  int small_gains_ = 0;
+  double samples_;
+  Eigen::VectorXd scales_, steps_;
+  bool first_ = true;
+  RecordJacobian jacobian_;
+  std::string message_;
 };
 
 int SamplesUntil(const Experiment& experiment, double time) {
@@ -109,17 +160,15 @@ int SamplesUntil(const Experiment& experiment, double time) {
 }
 
 void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, RecordModel* model) {
-  const RecordModel::Derivatives found =
-      model->Differentiate(values, model->WholeHorizon(), RecordModel::Difference::kForward);
-  if (!found.at.ok) return;
-  for (std::size_t i = 0; i < found.by_unknown.size(); ++i)
-    for (std::size_t e = 0; e < noise.size(); ++e) {
-      const Eigen::MatrixXd& by = found.by_unknown[i][e];
-      double seen = 0;
-      for (int c = 0; c < by.cols(); ++c)
-        seen += by.col(c).squaredNorm() / std::pow(noise[e][c], 2);
-      if (by.size() > 0 && seen < kUnseen) model->Ignore(static_cast<int>(i), static_cast<int>(e));
-    }
+  Eigen::VectorXd steps = model->SmallSteps();
+  const Linearised found = Linearise(*model, values, model->WholeHorizon(), noise,
+                                     RecordModel::Difference::kForward, true, &steps);
+  if (!found.ok) return;
+  const auto& records = found.jacobian.records();
+  for (std::size_t e = 0; e < records.size(); ++e)
+    for (std::size_t k = 0; k < records[e].unknowns.size(); ++k)
+      if (records[e].columns.col(static_cast<Eigen::Index>(k)).squaredNorm() < kUnseen)
+        model->Ignore(records[e].unknowns[k], static_cast<int>(e));
 }
 
 /// Spread evenly over the box around the start, the same on each run.
@@ -211,84 +260,111 @@ Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorX
   return Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<int>(residuals.size()));
 }
 
-Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
-                                 const RecordModel::Derivatives& derivatives,
-                                 const NoiseLevels& noise) {
-  const Records& records = derivatives.at.records;
-  const int unknowns = model.unknowns().size();
-  int rows = 0, priors = 0;
-  for (const Eigen::MatrixXd& record : records) rows += static_cast<int>(record.size());
-  for (const Unknown& u : model.unknowns().all()) priors += u.prior_sd > 0;
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows + priors, unknowns);
-  std::vector<Eigen::MatrixXd> weights;
-  for (std::size_t e = 0; e < records.size(); ++e)
-    weights.push_back(SampleWeights(model, e, noise));
-  int prior = rows;
-  for (int i = 0; i < unknowns; ++i) {
-    int row = 0;
-    for (std::size_t e = 0; e < records.size(); ++e) {
-      const Eigen::MatrixXd& by = derivatives.by_unknown[i][e];
-      for (int c = 0; c < records[e].cols(); ++c) {
-        const int n = static_cast<int>(records[e].rows());
-        if (by.size() > 0)
-          jacobian.col(i).segment(row, n) = -by.col(c).cwiseProduct(weights[e].col(c).head(n));
-        row += n;
-      }
+RecordJacobian WeightedJacobian(const RecordModel& model,
+                                const RecordModel::Derivatives& derivatives,
+                                const NoiseLevels& noise) {
+  std::vector<RecordJacobian::Record> records;
+  for (std::size_t e = 0; e < derivatives.slopes.size(); ++e) {
+    const auto& slopes = derivatives.slopes[e];
+    const Eigen::MatrixXd& shown = derivatives.at.records[e];
+    const Eigen::MatrixXd weights = SampleWeights(model, e, noise).topRows(shown.rows());
+    RecordJacobian::Record record;
+    record.columns.resize(shown.size(), static_cast<Eigen::Index>(slopes.size()));
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      record.unknowns.push_back(slopes[k].unknown);
+      const Eigen::MatrixXd weighted = -slopes[k].by.cwiseProduct(weights);
+      record.columns.col(static_cast<Eigen::Index>(k)) =
+          Eigen::Map<const Eigen::VectorXd>(weighted.data(), weighted.size());
     }
-    const Unknown& u = model.unknowns().all()[i];
-    if (u.prior_sd > 0) jacobian(prior++, i) = -u.scale / u.prior_sd;
+    records.push_back(std::move(record));
   }
-  return jacobian;
+  Eigen::VectorXd priors = Eigen::VectorXd::Zero(model.unknowns().size());
+  for (int i = 0; i < priors.size(); ++i) {
+    const Unknown& u = model.unknowns().all()[i];
+    if (u.prior_sd > 0) priors[i] = -u.scale / u.prior_sd;
+  }
+  return RecordJacobian(std::move(records), priors);
+}
+
+Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
+                     const Horizon& horizon, const NoiseLevels& noise,
+                     RecordModel::Difference difference, bool again, Eigen::VectorXd* steps,
+                     const std::vector<Eigen::VectorXd>& others) {
+  Linearised result;
+  RecordModel::Derivatives found = model.Differentiate(values, horizon, difference, *steps, others);
+  result.other_costs = CostsOf(model, others, found.others, noise);
+  for (;; again = false) {
+    result.ok = found.at.ok;
+    result.message = found.at.message;
+    if (!result.ok) return result;
+    result.jacobian = WeightedJacobian(model, found, noise);
+    bool unsuitable = false;
+    for (int i = 0; i < steps->size(); ++i) {
+      // In the record that shows it most: the root of the mean square of what the step does.
+      double effect = 0;
+      for (const RecordJacobian::Record& record : result.jacobian.records())
+        for (std::size_t k = 0; k < record.unknowns.size(); ++k)
+          if (record.unknowns[k] == i)
+            effect = std::max(effect, (*steps)[i] *
+                                          record.columns.col(static_cast<Eigen::Index>(k)).norm() /
+                                          std::sqrt(static_cast<double>(record.columns.rows())));
+      const double wanted =
+          std::clamp((*steps)[i] * kEffect / std::max(effect, 1e-300), kSmallestStep, kLargestStep);
+      unsuitable |= effect < kFaintEffect * kEffect && wanted > kCoarser * (*steps)[i];
+      (*steps)[i] = wanted;
+    }
+    if (!again || !unsuitable) break;
+    found = model.Differentiate(values, horizon, difference, *steps);
+  }
+  result.simulated = std::move(found.at.records);
+  result.residuals = WeightedResiduals(model, values, result.simulated, noise);
+  return result;
 }
 
 FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
               const NoiseLevels& noise, const FitOptions& fit, const FitProgress& progress) {
   const Unknowns& unknowns = model.unknowns();
-  int count = 0;
+  LeastSquaresOptions options;
+  options.samples = 0;
   for (std::size_t e = 0; e < horizon.size(); ++e) {
     const Experiment& experiment = unknowns.set().experiments[e];
-    count += SamplesUntil(experiment, horizon[e]) * static_cast<int>(experiment.channels.size());
+    options.samples +=
+        SamplesUntil(experiment, horizon[e]) * static_cast<double>(experiment.channels.size());
   }
-  for (const Unknown& u : unknowns.all()) count += u.prior_sd > 0;
-
-  Eigen::VectorXd x(unknowns.size());
-  for (int i = 0; i < unknowns.size(); ++i) x[i] = values[i] / unknowns.all()[i].scale;
-  FitResult result;
-  ceres::Problem problem;
-  problem.AddResidualBlock(new RecordCost(model, horizon, noise, count, &result.jacobian), nullptr,
-                           x.data());
+  RecordProblem problem(model, horizon, noise, progress, fit.steps, options.samples);
+  options.lower.resize(unknowns.size());
+  options.upper.resize(unknowns.size());
   for (int i = 0; i < unknowns.size(); ++i) {
-    const Unknown& u = unknowns.all()[i];
-    if (std::isfinite(u.lower)) problem.SetParameterLowerBound(x.data(), i, u.lower / u.scale);
-    if (std::isfinite(u.upper)) problem.SetParameterUpperBound(x.data(), i, u.upper / u.scale);
+    options.lower[i] = unknowns.all()[i].lower / unknowns.all()[i].scale;
+    options.upper[i] = unknowns.all()[i].upper / unknowns.all()[i].scale;
   }
-  if (!fit.held.empty())
-    problem.SetManifold(x.data(), new ceres::SubsetManifold(unknowns.size(), fit.held));
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.max_num_iterations = fit.loose ? kLooseIterations : kMaxIterations;
-  options.function_tolerance = fit.loose ? kLoose : kTight;
-  options.parameter_tolerance = fit.loose ? 1e-4 : 1e-7;
-  options.logging_type = ceres::SILENT;
-  Callback callback(progress);
-  options.callbacks.push_back(&callback);
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  options.held.assign(static_cast<std::size_t>(unknowns.size()), false);
+  for (const int i : fit.held) options.held[static_cast<std::size_t>(i)] = true;
+  options.max_iterations = fit.loose ? kLooseIterations : kMaxIterations;
+  // On the way, what changes the misfit by a small part is not worth an iteration either.
+  const double by_sample = fit.loose ? kLoose : fit.to_noise ? 0 : kOfMisfit;
+  options.small_gain = std::max(kSmallGain, by_sample * options.samples);
+  const LeastSquaresResult found =
+      Minimise(values.cwiseQuotient(problem.scales()), options, &problem);
 
-  result.interrupted = summary.termination_type == ceres::USER_FAILURE;
-  result.ok = summary.IsSolutionUsable() && !result.interrupted;
-  result.message = summary.message;
-  result.cost = summary.final_cost;
-  result.iterations = static_cast<int>(summary.iterations.size());
-  result.values.resize(unknowns.size());
-  for (int i = 0; i < unknowns.size(); ++i) result.values[i] = x[i] * unknowns.all()[i].scale;
+  FitResult result;
+  result.interrupted = found.end == LeastSquaresResult::End::kStopped || model.Stopping();
+  result.ok = found.end != LeastSquaresResult::End::kFailed;
+  result.at_minimum = found.end == LeastSquaresResult::End::kMinimum;
+  result.message = problem.message();
+  result.cost = found.cost;
+  result.gain_left = found.gain_left;
+  result.iterations = found.iterations;
+  result.values = found.x.cwiseProduct(problem.scales());
+  result.jacobian = problem.jacobian();
+  result.steps = problem.steps();
   return result;
 }
 
-bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const NoiseLevels& noise,
+bool Polish(const RecordModel& model, const RecordJacobian& jacobian, const NoiseLevels& noise,
             Eigen::VectorXd* values) {
   const Unknowns& unknowns = model.unknowns();
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solve(jacobian);
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solve(jacobian.Gram());
   Eigen::VectorXd best = *values;
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step <= kPolishSteps; ++step) {
@@ -299,9 +375,9 @@ bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const Noi
     if (cost > least + kPolishNoise) return false;
     least = std::min(least, cost);
     *values = best;
-    const Eigen::VectorXd move = -solve.solve(residuals);
-    const double gain = (jacobian * move).squaredNorm();
-    if (gain < kPolished) return true;
+    const Eigen::VectorXd gradient = jacobian.TransposeTimes(residuals);
+    const Eigen::VectorXd move = -solve.solve(gradient);
+    if (-gradient.dot(move) < kPolished) return true;
     for (int i = 0; i < unknowns.size(); ++i) {
       const Unknown& u = unknowns.all()[i];
       best[i] = std::clamp(best[i] + move[i] * u.scale, u.lower, u.upper);
@@ -315,14 +391,14 @@ bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const Noi
 std::vector<int> Powerless(const RecordModel& model, const Eigen::VectorXd& values,
                            const Horizon& horizon, const NoiseLevels& noise) {
   std::vector<int> powerless;
-  const RecordModel::Derivatives found =
-      model.Differentiate(values, horizon, RecordModel::Difference::kForward);
-  if (!found.at.ok) return powerless;
-  const Eigen::MatrixXd jacobian = WeightedJacobian(model, found, noise);
-  const double left = WeightedResiduals(model, values, found.at.records, noise).squaredNorm();
+  Eigen::VectorXd steps = model.SmallSteps();
+  const Linearised found =
+      Linearise(model, values, horizon, noise, RecordModel::Difference::kForward, true, &steps);
+  if (!found.ok) return powerless;
+  const double left = found.residuals.squaredNorm();
+  const Eigen::VectorXd shown = found.jacobian.SquaredNorms();
   for (int i = 0; i < model.unknowns().size(); ++i)
-    if (model.unknowns().all()[i].kind == Unknown::Kind::kCable &&
-        jacobian.col(i).squaredNorm() < kPower * left)
+    if (model.unknowns().all()[i].kind == Unknown::Kind::kCable && shown[i] < kPower * left)
       powerless.push_back(i);
   return powerless;
 }

@@ -7,11 +7,9 @@
 #include <vector>
 
 #include "cosserat_cable/identification/record_model.h"
+#include "record_jacobian.h"
 
 namespace cosserat_cable {
-
-/// Standard deviation of the noise, by experiment and channel.
-using NoiseLevels = std::vector<Eigen::VectorXd>;
 
 /// Called with what is going on; false stops the fit.
 using FitProgress = std::function<bool(const std::string& what)>;
@@ -35,31 +33,54 @@ Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorX
 /// beforehand.
 int FirstRow(const RecordModel& model, int experiment);
 /// Their derivatives by the unknowns in units of the unknowns' scales.
-Eigen::MatrixXd WeightedJacobian(const RecordModel& model,
-                                 const RecordModel::Derivatives& derivatives,
-                                 const NoiseLevels& noise);
+RecordJacobian WeightedJacobian(const RecordModel& model,
+                                const RecordModel::Derivatives& derivatives,
+                                const NoiseLevels& noise);
+
+/// What is left at values of the unknowns, and how it changes with them.
+struct Linearised {
+  bool ok = false;
+  std::string message;
+  Records simulated;
+  Eigen::VectorXd residuals;  ///< WeightedResiduals
+  RecordJacobian jacobian;
+  std::vector<double> other_costs;  ///< half the sums of squares at the other points
+};
+/// `steps`, of the differences in the unknowns' scales, are made to suit: large enough to rise
+/// above rounding, with an effect of some part of the noise at most. `again`: what they turned out
+/// to be unsuitable for is differentiated once more. `others` are simulated beside.
+Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
+                     const Horizon& horizon, const NoiseLevels& noise,
+                     RecordModel::Difference difference, bool again, Eigen::VectorXd* steps,
+                     const std::vector<Eigen::VectorXd>& others = {});
 
 struct FitResult {
   bool ok = false;
   bool interrupted = false;
+  bool at_minimum = false;  ///< nothing that counts beside the noise can be gained
   std::string message;
   Eigen::VectorXd values;
-  double cost = 0;  ///< half the sum of squares
+  double cost = 0;       ///< half the sum of squares
+  double gain_left = 0;  ///< of it, as far as the derivatives know, by the noise that is left
   int iterations = 0;
-  Eigen::MatrixXd jacobian;  ///< WeightedJacobian near the end
+  RecordJacobian jacobian;  ///< near the end
+  Eigen::VectorXd steps;    ///< of the differences
 };
 
-/// Levenberg and Marquardt's method (Ceres) from `values`, with the unknowns in their bounds.
 struct FitOptions {
   bool loose = false;     ///< on the way, not to the end
+  /// Whether what counts is measured by the noise; otherwise by what is left.
+  bool to_noise = true;
   std::vector<int> held;  ///< unknowns that stay
+  Eigen::VectorXd steps;  ///< of the differences, from a fit before; may be empty
 };
+/// From `values`, with the unknowns in their bounds, to where nothing more can be gained.
 FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
               const NoiseLevels& noise, const FitOptions& options, const FitProgress& progress);
 
 /// The last small steps to a minimum that is near, with the derivatives as they were there: Gauss
 /// and Newton's. False where they lead nowhere; `values` are left as they were then.
-bool Polish(const RecordModel& model, const Eigen::MatrixXd& jacobian, const NoiseLevels& noise,
+bool Polish(const RecordModel& model, const RecordJacobian& jacobian, const NoiseLevels& noise,
             Eigen::VectorXd* values);
 
 /// From nowhere near: points spread around the start and `more` on the first part of the records,

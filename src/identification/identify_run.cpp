@@ -68,6 +68,8 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
       progress.Update(100 * part, what);
       return !Interrupted();
     };
+    estimation_options.stop = Interrupted;
+    estimation_options.time_limit = options.time_limit;
     if (options.direct) {
       progress.Update(0, "frequencies and decay rates");
       direct = EvaluateDirectly(set);
@@ -80,7 +82,9 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   }
   if (!problems.empty()) return refuse();
   if (!estimation.ok) {
-    std::cerr << (estimation.interrupted ? "interrupted: nothing was written" : estimation.message)
+    std::cerr << (estimation.interrupted
+                      ? "interrupted before anything was found: nothing was written"
+                      : estimation.message)
               << "\n";
     return estimation.interrupted ? kExitInterrupted : kExitFailed;
   }
@@ -107,6 +111,10 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   for (const std::string& warning : estimation.warnings)
     std::cerr << "warning: " << warning << "\n";
   std::printf("identified in %.1f s\n", estimation.seconds);
+  if (estimation.interrupted) {
+    std::cerr << options.output << ": interrupted: what was found so far was written\n";
+    return kExitInterrupted;
+  }
   if (!options.report) return kExitDone;
   std::vector<std::string> report = {options.report_program, options.output};
   if (options.pdf) report.push_back("--pdf");

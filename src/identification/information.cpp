@@ -101,19 +101,20 @@ Combination Combine(const RecordModel& model, const Eigen::VectorXd& values,
 
 }  // namespace
 
-Information InformationOfRecord(const RecordModel& model, const Eigen::MatrixXd& jacobian,
+Information InformationOfRecord(const RecordModel& model, const RecordJacobian& jacobian,
                                 const std::vector<std::vector<NoiseColour>>& colours,
                                 int experiment) {
-  const auto unknowns = static_cast<int>(jacobian.cols());
+  const int unknowns = jacobian.unknowns();
   Information information{Eigen::MatrixXd::Zero(unknowns, unknowns),
                           Eigen::MatrixXd::Zero(unknowns, unknowns)};
-  const auto n = static_cast<int>(
-      model.unknowns().set().experiments[static_cast<std::size_t>(experiment)].record.t.size());
-  int row = FirstRow(model, experiment);
-  for (const NoiseColour& colour : colours[static_cast<std::size_t>(experiment)]) {
-    const Eigen::MatrixXd block = jacobian.middleRows(row, n);
+  const auto e = static_cast<std::size_t>(experiment);
+  const RecordJacobian::Record& record = jacobian.records()[e];
+  const auto n = static_cast<int>(model.unknowns().set().experiments[e].record.t.size());
+  int row = 0;
+  for (const NoiseColour& colour : colours[e]) {
+    const Eigen::MatrixXd block = record.columns.middleRows(row, n);
     Eigen::MatrixXd sum = block.transpose() * block;
-    information.expected += sum;
+    AddPart(sum, record.unknowns, &information.expected);
     for (int lag = 1; lag < std::min<int>(n, static_cast<int>(colour.autocorrelation.size()));
          ++lag) {
       const Eigen::MatrixXd product =
@@ -121,18 +122,16 @@ Information InformationOfRecord(const RecordModel& model, const Eigen::MatrixXd&
       sum +=
           colour.autocorrelation[static_cast<std::size_t>(lag)] * (product + product.transpose());
     }
-    information.scatter += colour.sd * colour.sd * sum;
+    AddPart(colour.sd * colour.sd * sum, record.unknowns, &information.scatter);
     row += n;
   }
   return information;
 }
 
-Information InformationOf(const RecordModel& model, const Eigen::MatrixXd& jacobian,
+Information InformationOf(const RecordModel& model, const RecordJacobian& jacobian,
                           const std::vector<std::vector<NoiseColour>>& colours) {
   const auto experiments = static_cast<int>(model.unknowns().set().experiments.size());
-  const auto priors = jacobian.rows() - FirstRow(model, experiments);
-  const Eigen::MatrixXd of_priors =
-      jacobian.bottomRows(priors).transpose() * jacobian.bottomRows(priors);
+  const Eigen::MatrixXd of_priors = jacobian.priors().cwiseAbs2().asDiagonal();
   Information information{of_priors, of_priors};
   for (int e = 0; e < experiments; ++e) {
     const Information record = InformationOfRecord(model, jacobian, colours, e);

@@ -20,11 +20,11 @@ struct Information {
 
 /// `jacobian` as WeightedJacobian has it; `colours` by experiment and channel, of the weighted
 /// residuals.
-Information InformationOf(const RecordModel& model, const Eigen::MatrixXd& jacobian,
+Information InformationOf(const RecordModel& model, const RecordJacobian& jacobian,
                           const std::vector<std::vector<NoiseColour>>& colours);
 
 /// The same of one experiment's record alone.
-Information InformationOfRecord(const RecordModel& model, const Eigen::MatrixXd& jacobian,
+Information InformationOfRecord(const RecordModel& model, const RecordJacobian& jacobian,
                                 const std::vector<std::vector<NoiseColour>>& colours,
                                 int experiment);
 

@@ -181,22 +181,19 @@ Plan MakePlan(const MeasurementSet& set, const Estimation& estimation, const Pla
   if (progress && !progress("planning", 0.95)) return plan;
   const RecordModel model(unknowns);
   const Eigen::VectorXd values = unknowns.StartValues();
-  const RecordModel::Derivatives found =
-      model.Differentiate(values, model.WholeHorizon(), RecordModel::Difference::kCentral);
-  if (!found.at.ok) {
-    plan.message = found.at.message;
+  Eigen::VectorXd steps = model.SmallSteps();
+  const Linearised found = Linearise(model, values, model.WholeHorizon(), noise,
+                                     RecordModel::Difference::kCentral, true, &steps);
+  if (!found.ok) {
+    plan.message = found.message;
     return plan;
   }
-  const Eigen::MatrixXd jacobian = WeightedJacobian(model, found, noise);
-  int row = 0;
   for (std::size_t e = 0; e < rigs.experiments.size(); ++e) {
-    const auto n =
-        static_cast<int>(rigs.experiments[e].record.t.size() * rigs.experiments[e].channels.size());
-    const Eigen::MatrixXd block = jacobian.middleRows(row, n);
-    rated[e].information = block.transpose() * block;
+    const RecordJacobian::Record& record = found.jacobian.records()[e];
+    rated[e].information = Eigen::MatrixXd::Zero(unknowns.size(), unknowns.size());
+    AddPart(record.columns.transpose() * record.columns, record.unknowns, &rated[e].information);
     for (const ParameterScatter& one : estimation.scatter)
       LoseToScatter(unknowns.Find(one.name), one.sd, unknowns, &rated[e].information);
-    row += n;
   }
 
   for (const ParameterEstimate* one : WorstFirst(estimation)) {

@@ -1,7 +1,6 @@
 #include "profile.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +9,47 @@ namespace {
 
 constexpr double kNormal95 = 1.959964;
 const double kSteps[] = {-3, -2, -1, 1, 2, 3};  // in standard deviations
+// The others are fitted when they can gain no more deviance than this; by so many rounds.
+constexpr double kSettled = 0.02;
+constexpr int kRounds = 6;
+// Of the curvature's interval, to each side.
+constexpr double kNarrowest = 0.5;
+
+/// The unknowns that follow one that is moved, and how.
+struct Followers {
+  std::vector<int> which;
+  Eigen::LDLT<Eigen::MatrixXd> normal;
+  double widening = 1;  ///< of the profiled unknown's variance, by the noise's colour
+};
+
+Followers FollowersOf(int i, const Optimum& optimum, const Eigen::MatrixXd& gram) {
+  Followers followers;
+  for (int k = 0; k < gram.rows(); ++k)
+    if (k != i && optimum.covariance(k, k) > 0 && gram(k, k) > 0) followers.which.push_back(k);
+  const auto n = static_cast<Eigen::Index>(followers.which.size());
+  Eigen::MatrixXd part(n, n);
+  Eigen::VectorXd with(n);
+  for (Eigen::Index a = 0; a < n; ++a) {
+    with[a] = gram(followers.which[a], i);
+    for (Eigen::Index b = 0; b < n; ++b) part(a, b) = gram(followers.which[a], followers.which[b]);
+  }
+  double alone = gram(i, i);
+  if (n > 0) {
+    followers.normal.compute(part);
+    alone -= with.dot(followers.normal.solve(with));
+  }
+  followers.widening = optimum.covariance(i, i) * std::max(alone, 1e-300);
+  return followers;
+}
+
+/// A value of the profile on its way.
+struct Place {
+  std::size_t profile;
+  double value;
+  Eigen::VectorXd at;
+  double cost = 0;  ///< sum of squares, less what one more step would gain
+  bool found = false;
+};
 
 }  // namespace
 
@@ -17,66 +57,83 @@ std::vector<Profile> FindProfiles(const RecordModel& model, const Optimum& optim
                                   const NoiseLevels& noise, const std::vector<int>& which) {
   const Unknowns& unknowns = model.unknowns();
   const int n = unknowns.size();
-  const Eigen::MatrixXd information = optimum.jacobian.transpose() * optimum.jacobian;
-  std::vector<Eigen::VectorXd> points;
-  for (const int i : which) {
+  const Eigen::MatrixXd gram = optimum.jacobian.Gram();
+  std::vector<Followers> followers;
+  std::vector<Place> places;
+  const auto clamp = [&](int k, double value) {
+    return std::clamp(value, unknowns.all()[k].lower, unknowns.all()[k].upper);
+  };
+  for (std::size_t p = 0; p < which.size(); ++p) {
+    const int i = which[p];
+    followers.push_back(FollowersOf(i, optimum, gram));
     const double sd = std::sqrt(optimum.covariance(i, i));
     for (const double step : kSteps) {
       // The others where they are best for this one, as far as the derivatives know.
-      Eigen::VectorXd move = optimum.covariance.col(i) / optimum.covariance(i, i) * (step * sd);
-      Eigen::VectorXd point = optimum.values;
-      for (int k = 0; k < n; ++k) {
-        const Unknown& u = unknowns.all()[k];
-        point[k] = std::clamp(point[k] + move[k] * u.scale, u.lower, u.upper);
-      }
-      points.push_back(point);
+      const Eigen::VectorXd move = optimum.covariance.col(i) / sd * step;
+      Place place{p, 0, optimum.values};
+      for (int k = 0; k < n; ++k)
+        place.at[k] = clamp(k, place.at[k] + move[k] * unknowns.all()[k].scale);
+      place.value = place.at[i];
+      if (place.value != optimum.values[i]) places.push_back(place);  // else it is at its bound
     }
   }
-  const std::vector<RecordModel::Simulated> all = model.Simulate(points, model.WholeHorizon());
-  const double least = optimum.residuals.squaredNorm();
-  std::vector<Profile> profiles;
-  std::size_t p = 0;
-  for (const int i : which) {
-    // Unknowns that follow.
-    std::vector<int> others;
-    for (int k = 0; k < n; ++k)
-      if (k != i && optimum.covariance(k, k) > 0) others.push_back(k);
-    Eigen::MatrixXd J(optimum.jacobian.rows(), others.size());
-    for (std::size_t k = 0; k < others.size(); ++k) J.col(k) = optimum.jacobian.col(others[k]);
-    const Eigen::LDLT<Eigen::MatrixXd> normal(J.transpose() * J);
-    // Variance as the plain likelihood has it, against the true one.
-    Eigen::VectorXd column = optimum.jacobian.col(i);
-    if (!others.empty()) column -= J * normal.solve(J.transpose() * column);
-    const double plain = 1 / std::max(column.squaredNorm(), 1e-300);
-    const double widening = optimum.covariance(i, i) / plain;
+  std::vector<Place*> left;
+  for (Place& place : places) left.push_back(&place);
+  for (int round = 0; round < kRounds && !left.empty(); ++round) {
+    std::vector<Eigen::VectorXd> points;
+    for (const Place* place : left) points.push_back(place->at);
+    const std::vector<RecordModel::Simulated> all = model.Simulate(points, model.WholeHorizon());
+    std::vector<Place*> next;
+    for (std::size_t k = 0; k < left.size(); ++k) {
+      if (!all[k].ok) continue;
+      Place& place = *left[k];
+      const Followers& others = followers[place.profile];
+      const Eigen::VectorXd r = WeightedResiduals(model, place.at, all[k].records, noise);
+      const Eigen::VectorXd slope = optimum.jacobian.TransposeTimes(r);
+      Eigen::VectorXd gradient(static_cast<Eigen::Index>(others.which.size()));
+      for (std::size_t o = 0; o < others.which.size(); ++o)
+        gradient[static_cast<Eigen::Index>(o)] = slope[others.which[o]];
+      double gain = 0;
+      if (!others.which.empty()) {
+        const Eigen::VectorXd move = -others.normal.solve(gradient);
+        gain = -gradient.dot(move);
+        for (std::size_t o = 0; o < others.which.size(); ++o) {
+          const int u = others.which[o];
+          place.at[u] =
+              clamp(u, place.at[u] + move[static_cast<Eigen::Index>(o)] * unknowns.all()[u].scale);
+        }
+      }
+      place.cost = r.squaredNorm() - gain;
+      place.found = gain < kSettled * others.widening;
+      if (!place.found) next.push_back(&place);
+    }
+    left = std::move(next);
+  }
 
-    Profile profile;
+  const double least = optimum.residuals.squaredNorm();
+  std::vector<Profile> profiles(which.size());
+  for (std::size_t p = 0; p < which.size(); ++p) {
+    Profile& profile = profiles[p];
     const auto add = [&](double value, double deviance) {
       profile.value.push_back(value);
       profile.deviance.push_back(deviance);
     };
-    for (const double step : kSteps) {
-      const RecordModel::Simulated& simulated = all[p];
-      const double value = points[p][i];
-      if (step > 0 && profile.value.size() == std::size(kSteps) / 2) add(optimum.values[i], 0);
-      if (simulated.ok) {
-        const Eigen::VectorXd r = WeightedResiduals(model, points[p], simulated.records, noise);
-        double cost = r.squaredNorm();
-        if (!others.empty()) {
-          const Eigen::VectorXd gradient = J.transpose() * r;
-          cost -= gradient.dot(normal.solve(gradient));
-        }
-        const bool stuck = value == optimum.values[i];  // at a bound
-        if (!stuck) add(value, std::max(0.0, (cost - least) / widening));
+    bool middle = false;
+    for (const Place& place : places) {
+      if (place.profile != p || !place.found) continue;
+      if (!middle && place.value > optimum.values[which[p]]) {
+        add(optimum.values[which[p]], 0);
+        middle = true;
       }
-      ++p;
+      add(place.value, std::max(0.0, (place.cost - least) / followers[p].widening));
     }
-    profiles.push_back(std::move(profile));
+    if (!middle) add(optimum.values[which[p]], 0);
   }
   return profiles;
 }
 
-std::optional<std::pair<double, double>> IntervalOf(const Profile& profile, double value) {
+std::optional<std::pair<double, double>> IntervalOf(const Profile& profile, double value,
+                                                    double sd) {
   // Along the signed root of the deviance, which is straight where the problem is linear.
   std::vector<std::pair<double, double>> roots;  // value, root
   for (std::size_t k = 0; k < profile.value.size(); ++k)
@@ -93,7 +150,10 @@ std::optional<std::pair<double, double>> IntervalOf(const Profile& profile, doub
     const auto& [v1, r1] = roots[k];
     return v0 + (root - r0) / (r1 - r0) * (v1 - v0);
   };
-  return std::pair{at(-kNormal95), at(kNormal95)};
+  const std::pair<double, double> ends{at(-kNormal95), at(kNormal95)};
+  if (std::min(value - ends.first, ends.second - value) < kNarrowest * kNormal95 * sd)
+    return std::nullopt;
+  return ends;
 }
 
 }  // namespace cosserat_cable

@@ -48,14 +48,11 @@ MatrixXd PseudoInverse(const MatrixXd& symmetric) {
 
 class Scatter {
  public:
-  Scatter(const RecordModel& model, const FitEnd& end)
-      : unknowns_(model.unknowns()), end_(end), priors_(FirstRow(model, Records())) {
+  Scatter(const RecordModel& model, const FitEnd& end) : unknowns_(model.unknowns()), end_(end) {
     for (int e = 0; e < Records(); ++e) {
       RecordScore record;
       record.information = InformationOfRecord(model, end.jacobian, end.colours, e).expected;
-      const int first = FirstRow(model, e), count = FirstRow(model, e + 1) - first;
-      record.score =
-          end.jacobian.middleRows(first, count).transpose() * end.residuals.segment(first, count);
+      record.score = ScoreOf(model, e);
       // Where the differences that the fit found are taken back.
       for (int i = 0; i < unknowns_.size(); ++i)
         if (IsScatter(i))
@@ -106,6 +103,16 @@ class Scatter {
       if (records_[e].information(of, of) > 0) shown.push_back(e);
     return shown;
   }
+  /// Derivative of half a record's sum of squares by all unknowns.
+  VectorXd ScoreOf(const RecordModel& model, int e) const {
+    const RecordJacobian::Record& record = end_.jacobian.records()[e];
+    const VectorXd part = record.columns.transpose() *
+                          end_.residuals.segment(FirstRow(model, e), record.columns.rows());
+    VectorXd score = VectorXd::Zero(unknowns_.size());
+    for (std::size_t k = 0; k < record.unknowns.size(); ++k)
+      score[record.unknowns[k]] = part[static_cast<Eigen::Index>(k)];
+    return score;
+  }
   /// By unknown, how much the noise's colour widens its variance.
   VectorXd Widening(const RecordModel& model, int e) const {
     const Information information = InformationOfRecord(model, end_.jacobian, end_.colours, e);
@@ -133,11 +140,13 @@ class Scatter {
           cc(i, k) += by * records_[e].information(common[i], common[k]);
       }
     }
-    const MatrixXd priors = end_.jacobian.bottomRows(end_.jacobian.rows() - priors_);
-    const VectorXd prior_residuals = end_.residuals.tail(priors.rows());
+    const VectorXd& priors = end_.jacobian.priors();
     for (Eigen::Index i = 0; i < n; ++i) {
-      cc(i, i) += priors.col(common[i]).squaredNorm();
-      if (!IsScatter(common[i])) gc[i] += priors.col(common[i]).dot(prior_residuals);
+      const int one = common[i];
+      const Unknown& u = unknowns_.all()[one];
+      cc(i, i) += priors[one] * priors[one];
+      if (!IsScatter(one) && u.prior_sd > 0)
+        gc[i] += priors[one] * (u.start - end_.values[one]) / u.prior_sd;
     }
     for (Eigen::Index b = 0; b < m; ++b) {
       const RecordScore& record = records_[shown[b]];
@@ -197,7 +206,6 @@ class Scatter {
 
   const Unknowns& unknowns_;
   const FitEnd& end_;
-  int priors_;  // the first row of what is known beforehand
   std::vector<RecordScore> records_;
   std::vector<VectorXd> widening_;
 };

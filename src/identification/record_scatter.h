@@ -14,7 +14,7 @@ namespace cosserat_cable {
 struct FitEnd {
   const Eigen::VectorXd& values;
   const Eigen::VectorXd& residuals;  ///< weighted
-  const Eigen::MatrixXd& jacobian;   ///< by units of the scales
+  const RecordJacobian& jacobian;
   const std::vector<std::vector<NoiseColour>>& colours;
 };
 

@@ -47,14 +47,6 @@ void Interpolate(const Eigen::MatrixXd& values, double x, Eigen::Ref<Eigen::RowV
         (u + 1) * u * (u - 1) / 6 * values.row(i + 2);
 }
 
-double MedianInterval(const std::vector<double>& t) {
-  std::vector<double> intervals;
-  for (std::size_t i = 1; i < t.size(); ++i) intervals.push_back(t[i] - t[i - 1]);
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  return *middle;
-}
-
 bool HasAxes(Quantity quantity) {
   return quantity != Quantity::kAngle && quantity != Quantity::kRate;
 }

@@ -37,7 +37,7 @@ Specimen EstimateStart(const Experiment& experiment, const CableKeys& keys, Prob
   const NoiseLevels noise = GuessNoise(model);
   // Once as the steps show it, then without their errors.
   for (const bool refined : {false, true}) {
-    if (refined) model.Refine(values);
+    if (refined) model.Refine(values, noise);
     const FitResult fit = Fit(model, values, horizon, noise, {}, FitProgress());
     if (!fit.ok) {
       problems->Add(experiment.mark,

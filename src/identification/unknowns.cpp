@@ -5,6 +5,7 @@
 
 #include "cable_number.h"
 #include "cosserat_cable/input/number_text.h"
+#include "start_shapes.h"
 
 namespace cosserat_cable {
 namespace {
@@ -13,11 +14,8 @@ constexpr double kPi = 3.14159265358979323846;
 // Where nothing is known of a damping, a ratio of this size in the first mode is where the search
 // begins.
 constexpr double kTypicalDamping = 0.05;
-// No cable's stiffness or damping is as far from the first guess as this factor.
-constexpr double kFarthest = 1e3;
-// In both planes of a straight cable: four bending shapes each. What the fifth has of a pull at the
-// end is a thousandth of the first's.
-constexpr int kSwingShapes = 8;
+// No cable's damping is as far from the first guess as this factor, and no stiffness.
+constexpr double kFarthest = 1e3, kFarthestStiffness = 30;
 constexpr double kFirstClampedFree = 1.87510407;  // root of 1 + cos cosh = 0
 
 bool HasDisc(const Experiment& experiment) {
@@ -29,12 +27,6 @@ double BendingFrequency(const CableKeys& keys) {
   const double L = keys.length.value.value_or(0.2), EI = NumberOf("EI", keys).value_or(0.01);
   return std::pow(kFirstClampedFree / L, 2) *
          std::sqrt(EI / keys.mass_per_length.value.value_or(0.1));
-}
-
-double LargestOf(const std::vector<Eigen::Vector3d>& vectors) {
-  double largest = 0;
-  for (const Eigen::Vector3d& v : vectors) largest = std::max(largest, v.norm());
-  return largest;
 }
 
 double TorsionFrequency(const CableKeys& keys, const Experiment& experiment) {
@@ -182,8 +174,8 @@ void Unknowns::AddCable(const std::string& name, Problems* problems) {
                                        "from and no experiment that could show it");
     return;
   }
-  unknown.lower = unknown.damping ? 0.0 : unknown.scale / kFarthest;
-  unknown.upper = unknown.scale * kFarthest;
+  unknown.lower = unknown.damping ? 0.0 : unknown.scale / kFarthestStiffness;
+  unknown.upper = unknown.scale * (unknown.damping ? kFarthest : kFarthestStiffness);
   all_.push_back(unknown);
 }
 
@@ -209,20 +201,16 @@ void Unknowns::AddSwing(int e) {
   Problems problems;
   const Specimen specimen = MakeSpecimen(e, StartValues(), &problems);
   if (!problems.empty()) return;
-  shapes_[e] = FindSwingShapes(experiment, specimen, specimen.cable.elements, kSwingShapes);
-  for (std::size_t k = 0; k < shapes_[e].size(); ++k) {
-    const SwingShape& shape = shapes_[e][k];
-    const double w = std::max(shape.w, 1.0);
-    // Shapes have a largest displacement of 1 m, or turn of 1 rad. Of what a pull starts, a shape
-    // has the less the faster it is.
-    const double largest = (LargestOf(shape.displacement) < 0.5 ? 1.0 : specimen.cable.length) *
-                           std::min(1.0, std::max(shapes_[e].front().w, 1.0) / w);
+  for (StartShape& start : StartShapes(experiment, specimen)) {
+    const std::size_t k = shapes_[e].size();
+    const double w = std::max(start.shape.w, 1.0);
+    shapes_[e].push_back(std::move(start.shape));
     for (const Unknown::Kind kind : {Unknown::Kind::kSwing, Unknown::Kind::kSpeed}) {
       Unknown swing;
       swing.kind = kind;
       swing.name = experiment.name + (kind == Unknown::Kind::kSwing ? "/swing" : "/speed") +
                    std::to_string(k + 1);
-      swing.prior_sd = largest * (kind == Unknown::Kind::kSpeed ? w : 1.0);
+      swing.prior_sd = start.size * (kind == Unknown::Kind::kSpeed ? w : 1.0);
       swing.scale = 0.1 * swing.prior_sd;
       swing.experiment = e;
       swing.index = static_cast<int>(k);

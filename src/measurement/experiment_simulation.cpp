@@ -18,6 +18,9 @@ namespace {
 constexpr int kGrading = 10;
 // A step that does not converge is taken in parts of down to dt/2^kMaxHalvings.
 constexpr int kMaxHalvings = 5;
+// Steps between two questions whether to go on.
+constexpr int kStepsUnasked = 16;
+constexpr const char* kStopped = "stopped";
 // Two runs farther apart than this part of a channel's range say nothing about a third.
 constexpr double kNearEnough = 0.1;
 
@@ -77,6 +80,13 @@ class Side {
   }
 
   const std::vector<Run>& runs() const { return runs_; }
+  void Fail(const std::string& why) {
+    for (Run& run : runs_) {
+      if (!run.result->ok) continue;
+      run.result->ok = false;
+      run.result->message = why;
+    }
+  }
   bool AnyRunning() const {
     return std::any_of(runs_.begin(), runs_.end(), [](const Run& run) { return run.result->ok; });
   }
@@ -95,7 +105,11 @@ class Side {
   std::vector<rod::RodDrive> drives_;
 };
 
-void SimulateMotion(const Experiment& experiment, int samples, double dt, std::vector<Run> runs) {
+bool Stopped(const SimulationOptions& options) { return options.stop && options.stop(); }
+
+void SimulateMotion(const Experiment& experiment, int samples, const SimulationOptions& options,
+                    std::vector<Run> runs) {
+  const double dt = options.dt;
   const int channels = static_cast<int>(experiment.channels.size());
   const double start = experiment.start_time();
   const std::vector<double>& times = experiment.record.t;
@@ -114,6 +128,7 @@ void SimulateMotion(const Experiment& experiment, int samples, double dt, std::v
   for (t += part; part < dt; t += part, part *= 2) side.Step(t, part);
   for (int step = 1; step < steps; ++step) {
     if (step > 1) side.Step(start + (step - 1) * dt, dt);
+    if (step % kStepsUnasked == 0 && Stopped(options)) side.Fail(kStopped);
     if (!side.AnyRunning()) break;
     sample(step);
   }
@@ -135,13 +150,18 @@ void SimulateMotion(const Experiment& experiment, int samples, double dt, std::v
   }
 }
 
-void SimulateStatics(const Experiment& experiment, int samples, Run* run) {
+void SimulateStatics(const Experiment& experiment, int samples, const SimulationOptions& options,
+                     Run* run) {
   SimulatedRecord& result = *run->result;
   result.values.resize(samples, static_cast<int>(experiment.channels.size()));
   ChannelProbe probe(experiment.channels);
   Eigen::VectorXd row(result.values.cols());
   for (int i = 0; i < samples && result.ok; ++i) {
     result.ok = run->rig->Equilibrate(static_cast<int>(experiment.record.t[i]), &result.message);
+    if (result.ok && Stopped(options)) {
+      result.ok = false;
+      result.message = kStopped;
+    }
     if (!result.ok) break;
     probe.Sample(*run->rig, row);
     if (i > 0)
@@ -164,14 +184,19 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
     std::vector<Run> runs;
     for (std::size_t k = first; k < std::min(first + together, specimens.size()); ++k) {
       Run run{std::make_unique<Rig>(experiment, specimens[k], options.elements), &results[k]};
-      results[k].ok = run.rig->Start(&results[k].message);
+      if (Stopped(options)) {
+        results[k].ok = false;
+        results[k].message = kStopped;
+        continue;
+      }
+      results[k].ok = run.rig->Start(&results[k].message, options.rest.get());
       if (results[k].ok) runs.push_back(std::move(run));
     }
     if (runs.empty() || samples == 0) continue;
     if (experiment.quasi_static())
-      for (Run& run : runs) SimulateStatics(experiment, samples, &run);
+      for (Run& run : runs) SimulateStatics(experiment, samples, options, &run);
     else
-      SimulateMotion(experiment, samples, options.dt, std::move(runs));
+      SimulateMotion(experiment, samples, options, std::move(runs));
   }
   return results;
 }
@@ -219,6 +244,15 @@ RefinedRecord SimulateRefined(const Experiment& experiment, const Specimen& spec
   refined.extrapolated = refined.discretisation < kNearEnough;
   if (refined.extrapolated) refined.record.values += correction;
   return refined;
+}
+
+std::shared_ptr<const std::vector<Pose>> FindRest(const Experiment& experiment,
+                                                  const Specimen& specimen, int elements,
+                                                  const std::vector<Pose>* near) {
+  Rig rig(experiment, specimen, elements);
+  std::string message;
+  if (!rig.Start(&message, near)) return nullptr;
+  return std::make_shared<const std::vector<Pose>>(rig.rest());
 }
 
 std::vector<SwingShape> FindSwingShapes(const Experiment& experiment, const Specimen& specimen,

@@ -25,6 +25,14 @@ const char* ToString(Quantity quantity) {
   return "";
 }
 
+double MedianInterval(const std::vector<double>& t) {
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < t.size(); ++i) intervals.push_back(t[i] - t[i - 1]);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
 double Experiment::start_time() const {
   double first = std::numeric_limits<double>::infinity();
   for (const EndCondition* end : {&a, &b}) {

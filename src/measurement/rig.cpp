@@ -37,6 +37,21 @@ void LetGo(rod::EndModel* model) {
   model->damping.z() = D_E;
 }
 
+/// The shape at another number of nodes, evenly spread.
+std::vector<Pose> Resampled(const std::vector<Pose>& shape, int elements) {
+  const auto last = static_cast<int>(shape.size()) - 1;
+  if (last == elements) return shape;
+  std::vector<Pose> nodes;
+  for (int i = 0; i <= elements; ++i) {
+    const double x = static_cast<double>(i) * last / elements;
+    const int k = std::min(static_cast<int>(x), last - 1);
+    const Pose &left = shape[static_cast<std::size_t>(k)],
+               &right = shape[static_cast<std::size_t>(k) + 1];
+    nodes.push_back({left.p + (x - k) * (right.p - left.p), left.q.slerp(x - k, right.q)});
+  }
+  return nodes;
+}
+
 }  // namespace
 
 Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements)
@@ -127,7 +142,19 @@ void Rig::SetLoads(double t) {
     loads_.emplace(specimen_.cable.length, std::move(now));
 }
 
-bool Rig::Settle(rod::Rod* rod, std::string* message) {
+bool Rig::SettleNear(const std::vector<Pose>& near, rod::Rod* rod) {
+  if (near.size() < 2) return false;
+  const std::vector<Pose> nodes = Resampled(near, elements_);
+  rod->SetConfiguration(nodes);
+  const Pose b = experiment_.b.kind == EndCondition::Kind::kClamp ? b_ : nodes.back();
+  rod->SetClamps(a_, b);
+  if (!rod->EquilibrateNearby(load()).converged) return false;
+  b_ = b;
+  return true;
+}
+
+bool Rig::Settle(const std::vector<Pose>* near_rest, rod::Rod* rod, std::string* message) {
+  if (near_rest && SettleNear(*near_rest, rod)) return true;
   const auto equilibrate = [&] {
     if (rod->Equilibrate(load()).converged) return true;
     *message = "no static equilibrium found at the start";
@@ -152,7 +179,7 @@ bool Rig::Settle(rod::Rod* rod, std::string* message) {
   return true;
 }
 
-bool Rig::Start(std::string* message) {
+bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   const double t = experiment_.start_time();
   const bool statics = experiment_.quasi_static();
   const StartCondition& start = experiment_.start;
@@ -163,7 +190,9 @@ bool Rig::Start(std::string* message) {
   // End b is held about its axis until it is let go.
   const bool twisted = start.kind == StartCondition::Kind::kTwisted;
   rod::Rod settling(Model(twisted ? Turn::kHeld : Turn::kFree));
-  if (!Settle(&settling, message)) return false;
+  if (!Settle(near, &settling, message)) return false;
+  rest_.resize(elements_ + 1);
+  for (int i = 0; i <= elements_; ++i) rest_[i] = settling.pose(i);
   if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, kThere, &settling)) {
     *message = "the cable cannot be pulled to the position that start.held asks for";
     return false;

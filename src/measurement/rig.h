@@ -19,8 +19,11 @@ class Rig {
   /// The experiment outlives the rig.
   Rig(const Experiment& experiment, const Specimen& specimen, int elements);
 
-  /// Brings the rod to the start. False: `message` says why not.
-  bool Start(std::string* message);
+  /// Brings the rod to the start. False: `message` says why not. `near`: a shape near its rest to
+  /// look from first, at any number of nodes; may be null.
+  bool Start(std::string* message, const std::vector<Pose>* near = nullptr);
+  /// The rest that Start has found.
+  const std::vector<Pose>& rest() const { return rest_; }
 
   /// Poses of the clamps at a time [s], and the loads of that time.
   void MoveTo(double t);
@@ -42,7 +45,8 @@ class Rig {
   enum class Turn { kFree, kHeld };  // of end b about its axis
   rod::RodModel Model(Turn b) const;
   Pose TiltedA(const Pose& X_WC) const;
-  bool Settle(rod::Rod* rod, std::string* message);
+  bool Settle(const std::vector<Pose>* near, rod::Rod* rod, std::string* message);
+  bool SettleNear(const std::vector<Pose>& near, rod::Rod* rod);
   void SetLoads(double t);
 
   const Experiment& experiment_;
@@ -50,6 +54,7 @@ class Rig {
   int elements_;
   ClampPath path_a_, path_b_;
   Pose a_, b_;
+  std::vector<Pose> rest_;
   std::optional<rod::PointLoads> loads_;
   std::unique_ptr<rod::Rod> rod_;
 };

@@ -13,11 +13,21 @@ using Eigen::Vector3d;
 // Turn [rad] over which velocities are differences: their error is of its square.
 constexpr double kDifference = 1e-4;
 
-/// Values given at evenly spread nodes, at others.
+/// Values given at evenly spread nodes, at others: the cubic through the four nearest, so that more
+/// elements find the same curvatures.
 Vector3d Resampled(const std::vector<Vector3d>& values, double fraction) {
-  const double x = fraction * static_cast<double>(values.size() - 1);
-  const auto i = std::min<std::size_t>(static_cast<std::size_t>(x), values.size() - 2);
-  return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
+  const auto last = static_cast<int>(values.size()) - 1;
+  const double x = fraction * last;
+  const int first = std::clamp(static_cast<int>(x) - 1, 0, std::max(0, last - 3));
+  const int count = std::min(4, last + 1);
+  Vector3d sum = Vector3d::Zero();
+  for (int i = 0; i < count; ++i) {
+    double weight = 1;
+    for (int k = 0; k < count; ++k)
+      if (k != i) weight *= (x - (first + k)) / (i - k);
+    sum += weight * values[static_cast<std::size_t>(first + i)];
+  }
+  return sum;
 }
 
 /// The frame in the middle of an element.

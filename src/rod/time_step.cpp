@@ -9,7 +9,11 @@
 namespace cosserat_cable::rod {
 namespace {
 
-constexpr int kMaxIterations = 12;
+constexpr int kMaxIterations = 24;
+// From this iteration on, a correction that is not smaller than this part of the one before leads
+// nowhere.
+constexpr int kImpatientFrom = 8;
+constexpr double kNoContraction = 0.9;
 // Newton stops where the error still left, last correction times contraction, is below this
 // fraction of the length (and rad): 2e-10 m for a 200 mm cable. A step that just misses it and one
 // that just meets it, as of one rod with others beside it and alone, are then 1e-6 mm apart at most
@@ -117,7 +121,8 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       const double contraction = previous[r] > 0 ? report.correction / previous[r] : 1.0;
       report.converged =
           report.correction < kRoundOff || contraction * report.correction < kTolerance;
-      running[r] = !report.converged;
+      running[r] = !report.converged &&
+                   (iteration < kImpatientFrom || contraction < kNoContraction);
       previous[r] = report.correction;
     }
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/identification/record_model.h"
 #include "cosserat_cable/identification/unknowns.h"
 #include "cosserat_cable/input/problems.h"
 
@@ -28,6 +29,10 @@ struct EstimationOptions {
   /// Values to begin from besides the set's own, by name (the direct evaluation's).
   std::vector<std::pair<std::string, double>> guesses;
   EstimationProgress progress;
+  /// Asked in any thread; true ends the work at once, with what was found until then.
+  std::function<bool()> stop;
+  /// The work ends with what was found when it has taken this long [s]; 0: when it is done.
+  double time_limit = 0;
 };
 
 /// The likelihood along one parameter, all others at their best.
@@ -99,10 +104,18 @@ struct ExperimentFit {
   bool left_out = false;  ///< the record counted for nothing
 };
 
+/// What a part of the work took.
+struct StageCost {
+  std::string name;
+  double seconds = 0;
+  SimulationCount count;
+};
+
 struct Estimation {
   bool ok = false;
-  bool interrupted = false;
-  std::string message;  ///< why there is none
+  bool interrupted = false;  ///< by `stop` or `progress`; what there is was found until then
+  bool converged = false;    ///< false: no minimum was reached, for a reason that a warning tells
+  std::string message;       ///< why there is none
   std::vector<ParameterEstimate> parameters;
   std::vector<Combination> combinations;
   Eigen::MatrixXd correlation;  ///< of all unknowns; zero rows where not determined
@@ -113,6 +126,7 @@ struct Estimation {
   std::vector<ChannelSlip> slips;  ///< what would explain records that do not fit
   double discretisation = 0;       ///< what the steps did to the records, corrected; parts of range
   double seconds = 0;
+  std::vector<StageCost> stages;  ///< in the order in which they were first entered
 };
 
 /// Mistakes of the set go to `problems`.

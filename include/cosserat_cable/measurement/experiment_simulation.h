@@ -2,9 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/math/pose.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "cosserat_cable/measurement/specimen.h"
 
@@ -14,6 +17,11 @@ struct SimulationOptions {
   double dt = 5e-4;  ///< step [s]
   int elements = 40;
   double until = 1e300;  ///< no farther than this time [s] of the record
+  /// Asked now and then, in any thread; true: the simulation ends, and has failed. May be empty.
+  std::function<bool()> stop;
+  /// The static equilibrium at the start of a cable like this one, at evenly spread nodes: from it
+  /// this one's is found sooner, and where others lead nowhere. May be null.
+  std::shared_ptr<const std::vector<Pose>> rest;
 };
 
 /// A row per sample of the experiment's record, a column per channel.
@@ -29,6 +37,12 @@ struct SimulatedRecord {
 std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
                                                 const std::vector<Specimen>& specimens,
                                                 const SimulationOptions& options);
+
+/// The static equilibrium at the experiment's start, before anything pulls, twists or swings the
+/// cable. `near`: as SimulationOptions::rest. Null: none was found.
+std::shared_ptr<const std::vector<Pose>> FindRest(const Experiment& experiment,
+                                                  const Specimen& specimen, int elements,
+                                                  const std::vector<Pose>* near);
 
 /// How far two simulations of an experiment are apart: the largest deviation of their difference
 /// from its mean, in parts of the channel's range (a tenth of the widest range of its kind at

@@ -47,6 +47,9 @@ struct Record {
   Eigen::MatrixXd values;     ///< a column per channel, in the order of the channels
 };
 
+/// Of times [s], from one to the next. @pre there are two at least
+double MedianInterval(const std::vector<double>& t);
+
 /// How a clamp moves: samples of its pose X_WC.
 struct ClampMotion {
   std::string file;

@@ -1,0 +1,68 @@
+// Levenberg and Marquardt's method for residuals that are dear to find, several at a time for
+// little more than one: a step is tried together with the derivatives where it leads, and with more
+// careful steps beside it.
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+namespace cosserat_cable {
+
+/// Half a sum of squares of residuals r(x), x in [lower, upper].
+class LeastSquaresProblem {
+ public:
+  virtual ~LeastSquaresProblem() = default;
+
+  struct Linearisation {
+    bool ok = false;           ///< false: r or its derivatives cannot be found at x
+    double cost = 0;           ///< r^T r / 2
+    Eigen::MatrixXd gram;      ///< J^T J
+    Eigen::VectorXd gradient;  ///< J^T r
+  };
+  /// At x; `costs` become those of `others`, infinite where there is none.
+  virtual Linearisation Linearise(const Eigen::VectorXd& x,
+                                  const std::vector<Eigen::VectorXd>& others,
+                                  std::vector<double>* costs) = 0;
+  /// The costs at several points, infinite where there is none.
+  virtual std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) = 0;
+  /// How many points cost about as much as one; and how many others a linearisation has room for.
+  virtual int SideBySide() const = 0;
+  virtual int Room() const = 0;
+  /// False ends the search where it is.
+  virtual bool GoOn(int iteration, double cost) = 0;
+  /// Bounds what a step from `x` to `*next` may change, besides the box.
+  virtual void Restrain(const Eigen::VectorXd& x, Eigen::VectorXd* next) const = 0;
+};
+
+struct LeastSquaresOptions {
+  Eigen::VectorXd lower, upper;
+  std::vector<bool> held;  ///< by unknown: stays where it is
+  int max_iterations = 40;
+  /// The end: no more than this can be gained by Gauss and Newton's step, in cost by the noise's
+  /// variance. What the noise is taken for is the larger of 1 and the mean square of the residuals,
+  /// `samples` of them.
+  double small_gain = 1e-3;
+  double samples = 1;
+};
+
+struct LeastSquaresResult {
+  enum class End {
+    kMinimum,  ///< less than small_gain can be gained
+    kStuck,    ///< no damping gains anything, though more should be gained: the residuals are too
+               ///< rough
+    kIterations,  ///< max_iterations were not enough
+    kStopped,     ///< by GoOn
+    kFailed       ///< the first linearisation failed
+  };
+  End end = End::kFailed;
+  Eigen::VectorXd x;
+  double cost = 0;
+  double gain_left = 0;  ///< by Gauss and Newton's step, in units of small_gain's noise
+  int iterations = 0;
+};
+
+LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOptions& options,
+                            LeastSquaresProblem* problem);
+
+}  // namespace cosserat_cable
