@@ -1,8 +1,9 @@
 // What a law that a cable may have beside the rigidly clamped Kelvin-Voigt rod tells of itself.
 //
-// A new one is a file extension_NAME.cpp with its keys and what it does to the rod, its test, its
-// entry in extension_laws.cpp, and its paragraph in config/cables/template.yaml. Reading, writing,
-// naming its numbers in `uncertain` and reporting mistakes follow from the keys.
+// A new one is a file extension_some_name.cpp with a function SomeNameLaw(), which tells its keys
+// and what it does to the rod; its test; and its paragraph in config/cables/template.yaml. The
+// build finds it. Reading, writing, naming its numbers in `uncertain` and reporting mistakes follow
+// from the keys.
 #pragma once
 
 #include <optional>
@@ -19,7 +20,8 @@ namespace cosserat_cable {
 struct ExtensionField {
   enum class Need {
     kRequired,
-    kAny  ///< may be left out; an entry without any of these would do nothing, and is a mistake
+    kAny,      ///< may be left out; an entry without any of these would do nothing: a mistake
+    kOptional  ///< may be left out
   };
   std::string path;  ///< "tau"; "a.bending" for one in a map of the entry
   std::string unit;
@@ -37,10 +39,12 @@ struct ExtensionLaw {
   std::vector<ExtensionField> fields;
   /// Reports what does not go with the rest of the cable; may be null.
   void (*check)(const ExtensionKey& key, const CableKeys& cable, Problems* problems) = nullptr;
+  /// Changes the rod of a cable with this extension. With all amplitudes at zero it changes
+  /// nothing.
   void (*enter)(const CableExtension& extension, rod::RodModel* rod) = nullptr;
 };
 
-/// Every one that there is.
+/// Every one that there is, by name. They are read, written and entered in this order.
 const std::vector<ExtensionLaw>& ExtensionLaws();
 
 }  // namespace cosserat_cable

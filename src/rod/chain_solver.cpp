@@ -78,6 +78,19 @@ void AddLoadCoupling(const StepChain<T>& w, int e, F coupling[6][6]) {
     for (int j = 0; j < 3; ++j) coupling[i][j] += Converted<F>(w.load_lower[e][i][j]);
 }
 
+/// What section laws add.
+template <class T, class F>
+void AddLawDiagonal(const StepChain<T>& w, int k, Triangle6<F>* s) {
+  if (!w.nonlinear) return;
+  for (int i = 0; i < 21; ++i) s->v[i] += Converted<F>(w.law_diagonal[k].v[i]);
+}
+template <class T, class F>
+void AddLawCoupling(const StepChain<T>& w, int e, F coupling[6][6]) {
+  if (!w.nonlinear) return;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) coupling[i][j] += Converted<F>(w.law_lower[e][i][j]);
+}
+
 /// An element and its first node, evaluated: what the linear system needs of them.
 template <class F>
 struct Evaluated {
@@ -160,6 +173,7 @@ class Eliminator {
     AddToFirst(tangent, &block_);
     if (e < w_.first) return;
     AddLoadDiagonal(w_, e, &block_);
+    AddLawDiagonal(w_, e, &block_);
     NodeFactor<F>& factor = solver_.factors[e];
     F lowest = pivot_;
     FactoriseNode(block_, &factor, &lowest);
@@ -181,6 +195,7 @@ class Eliminator {
     F coupling[6][6];
     Coupling(tangent, coupling);
     AddLoadCoupling(w_, e, coupling);
+    AddLawCoupling(w_, e, coupling);
     CoupleNode(coupling, &solver_.factors[e], &block_);
   }
   void Substitute(int e, const Vec6<F>& lacking) {
@@ -197,6 +212,7 @@ class Eliminator {
     const int last = w_.layout.chain_elements;
     AddInertia(rate_by_increment_, w_.masses[last], &block_);
     AddLoadDiagonal(w_, last, &block_);
+    AddLawDiagonal(w_, last, &block_);
     for (F& x : block_.v) Join(&x);
     NodeFactor<F>& factor = solver_.factors[last];
     FactoriseNode(block_, &factor, &pivot_);

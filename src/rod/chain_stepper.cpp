@@ -12,6 +12,7 @@ template <class T>
 ChainStepper<T>::ChainStepper(const ChainLayout& layout, const Rod::Impl& alike) : chain_(layout) {
   chain_.SetHeld(alike.model.a.clamped(), alike.model.b.clamped());
   if (!alike.joints.empty()) chain_.SetJointed();
+  if (!alike.laws.empty()) chain_.SetNonlinear();
 }
 
 template <class T>
@@ -82,18 +83,20 @@ void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const R
                            SolveReport* reports) {
   const StepCoefficients c(dt);
   StepOfRod steps[kLanes];
-  chain_.branched = false;
+  chain_.branched = chain_.nonlinear = false;
   for (int l = 0; l < count; ++l) {
     Rod::Impl& rod = *rods[l];
     MoveIn(l, &rod);
     steps[l].ends = &rod.ends;
     if (drives[l].a) {
-      steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, {}, 0};
+      steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, rod.LawsOfStep(), {}, 0};
       rod.BeginStep(c, *drives[l].a, *drives[l].b);
     }
     rod.FillLaw(l, &chain_, &dt_of_law_[l]);
-    chain_.branched |= !rod.branches.empty();
+    chain_.branched |= rod.has_branch_stress();
+    chain_.nonlinear |= !rod.laws.empty();
   }
+  if (chain_.nonlinear) chain_.SetNonlinear();
   // Lanes without a rod repeat the first one as it was at first, and never move.
   for (int l = count; l < kLanes && !chain_.layout.halves; ++l) {
     if (!filled_) CopyState(l, *rods[0]);

@@ -22,6 +22,9 @@ class ChainStepper final : public RodHome {
   void Step(double dt, int count, Rod::Impl* const* rods, const RodDrive* drives,
             SolveReport* reports);
 
+  /// Makes room for rods with section laws, which is else made when the first is stepped.
+  void SetNonlinear() { chain_.SetNonlinear(); }
+
   void Fetch(int lane, Rod::Impl* rod) override;
   Node<double> NodeAt(int lane, int i) const override;
   void MoveOut(int lane) override { residents_[lane] = nullptr; }

@@ -168,6 +168,7 @@ class DynamicStiffness {
       sum += lambda * block_of(rod_.load_damping);
       for (int i = 0; i < LinearisedRod::kComponents; ++i)
         sum += factor[i] * block_of(rod_.material[i]);
+      for (const SymmetricBands& stiffness : rod_.laws) sum += block_of(stiffness);
       return sum;
     };
     entries_.clear();

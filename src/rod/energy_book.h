@@ -25,18 +25,21 @@ class EnergyBook {
     ends_.Restart(flow.ends);
     loads_.Restart(flow.loads);
     dissipation_.Restart(flow.dissipation);
+    lost_ = 0;
     stored_at_start_ = stored;
     open_ = true;
     waits_ = false;
   }
-  void Add(double dt, const Flow& flow) {
+  /// `lost` [J]: what has been dissipated beside the flow, as by friction, which knows no rate.
+  void Add(double dt, const Flow& flow, double lost) {
     ends_.Add(dt, flow.ends);
     loads_.Add(dt, flow.loads);
     dissipation_.Add(dt, flow.dissipation);
+    lost_ += lost;
   }
   EnergyBalance Balance(double stored) const {
     if (!open_) return {};
-    return {ends_.work(), loads_.work(), dissipation_.work(), stored - stored_at_start_};
+    return {ends_.work(), loads_.work(), dissipation_.work() + lost_, stored - stored_at_start_};
   }
 
  private:
@@ -58,7 +61,7 @@ class EnergyBook {
   };
 
   bool open_ = false, waits_ = false;
-  double stored_at_start_ = 0;
+  double stored_at_start_ = 0, lost_ = 0;
   Integral ends_, loads_, dissipation_;
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "lane_view.h"
 #include "rod_impl.h"
@@ -64,7 +65,7 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
   const bool descends = !load || load->HasPotential();
   SolveReport report;
   double shift = 0;
-  EvaluateForces(&w);
+  EvaluateStatics();
   double current = energy();
   std::vector<NodeState> start;
   std::vector<Vec6<double>> internal, gradient;  // minus the energy's, without and with the load
@@ -81,7 +82,7 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
     internal = w.rhs;
     for (;;) {
       w.rhs = internal;
-      AssembleTangent(0.0, &w);
+      AssembleStatics();
       if (load) AddLoad(*load, 0, true, 0.0, &w);
       ConstrainEnds(ends, &w);
       for (int i = first; i <= last; ++i)
@@ -125,7 +126,7 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
         w.trial[i].q = Normalized(start[i].q * Exp(fraction * V3{d[3], d[4], d[5]}));
       }
       ImposeEnds(ends, &w);
-      EvaluateForces(&w);
+      EvaluateStatics();
       const double next = energy();
       accepted =
           !descends || near || next <= current + kSufficientDecrease * fraction * slope + noise;
@@ -133,7 +134,7 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
     }
     if (!accepted) {
       w.trial = start;
-      EvaluateForces(&w);
+      EvaluateStatics();
       shift = std::max(kFirstShift, 4 * shift);
       if (shift > kLargestShift) return report;
       continue;
@@ -155,6 +156,7 @@ void Rod::Impl::BeginStatics() {
   w.trial = w.node;
   ImposeEnds(ends, &w);
   PrepareStatics();
+  laws.Reset();
 }
 
 void Rod::Impl::Soften(const Load* load, SolveReport* report) {
@@ -202,16 +204,20 @@ void Rod::Impl::FinishStatics(const Load* load, SolveReport* report) {
 
 SolveReport Rod::Equilibrate(const Load* load) {
   SolveReport report;
+  SectionLaws before = impl_->laws;
   impl_->BeginStatics();
   impl_->Soften(load, &report);
   impl_->FinishStatics(load, &report);
+  if (!report.converged) impl_->laws = std::move(before);
   return report;
 }
 
 SolveReport Rod::EquilibrateNearby(const Load* load) {
   SolveReport report;
+  SectionLaws before = impl_->laws;
   impl_->BeginStatics();
   impl_->FinishStatics(load, &report);
+  if (!report.converged) impl_->laws = std::move(before);
   return report;
 }
 

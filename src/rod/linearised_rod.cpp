@@ -90,6 +90,7 @@ void ClearTangent(StepWorkspace<double>* w) {
 LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli_of,
                              const std::vector<Quat<double>>& joints, const EndParts& ends,
                              const std::vector<Stiffening<double>>& stiffening,
+                             const std::vector<SectionMatrix>& tangents,
                              const std::vector<bool>& held_of, const Load* load,
                              StepWorkspace<double>* w)
     : held(held_of),
@@ -112,6 +113,7 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   const Vec6<double> missing[] = {w->rhs.front(), w->rhs.back()};
   const double h = w->law.h;
   material.assign(kComponents, SymmetricBands(w->count));
+  laws.assign(tangents.empty() ? 0 : kComponents, SymmetricBands(w->count));
   for (int e = 0; e + 1 < w->count; ++e) {
     const Node<double>&a = w->trial[e], &b = w->trial[e + 1];
     const Quat<double> joint = joints.empty() ? Quat<double>{1, 0, 0, 0} : joints[e];
@@ -132,6 +134,11 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
                  &material[as_in]);
     };
     for (int i = 0; i < kComponents; ++i) add(i, moduli[i].C, i);
+    for (std::size_t i = 0; i < laws.size(); ++i) {
+      const Eigen::Matrix<double, 12, 12> half =
+          0.5 / h * strains.row(i).transpose() * (tangents[e].row(i) * strains);
+      AddElement(e, half + half.transpose(), &laws[i]);
+    }
     // What a tension adds is bending's, whatever strain it is of.
     const Stiffening<double>& by = stiffening[e];
     if (by.x.C_M == 0 && by.y.C_M == 0) continue;
@@ -170,14 +177,16 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
     S.bottomRightCorner<3, 3>() = turn;
     geometric.Substitute(i, S);
     load_damping.Substitute(i, S);
-    for (SymmetricBands& stiffness : material) stiffness.Substitute(i, S);
+    for (auto* all : {&material, &laws})
+      for (SymmetricBands& stiffness : *all) stiffness.Substitute(i, S);
   });
   for (int k = 0; k < unknowns(); ++k) {
     if (!held[k]) continue;
     mass[k] = 0;
     geometric.Clear(k);
     load_damping.Clear(k);
-    for (SymmetricBands& stiffness : material) stiffness.Clear(k);
+    for (auto* all : {&material, &laws})
+      for (SymmetricBands& stiffness : *all) stiffness.Clear(k);
   }
 }
 
@@ -195,7 +204,8 @@ Eigen::Vector3d LinearisedRod::Rotation(const Eigen::VectorXd& x, int node) cons
 
 SymmetricBands LinearisedRod::Stiffness() const {
   SymmetricBands sum = geometric;
-  for (const SymmetricBands& stiffness : material) sum.Add(1, stiffness);
+  for (const auto* all : {&material, &laws})
+    for (const SymmetricBands& stiffness : *all) sum.Add(1, stiffness);
   return sum;
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cosserat_cable/rod/load.h"
+#include "cosserat_cable/rod/section_law.h"
 #include "dynamic_modulus.h"
 #include "end_part.h"
 #include "step_workspace.h"
@@ -24,11 +25,13 @@ struct LinearisedRod {
   enum Component { kShear1, kShear2, kStretch, kBend1, kBend2, kTwist, kComponents };
 
   /// At the iterate of `w`, which is an equilibrium under its static law and `load`. `held`: by
-  /// unknown; `stiffening`: by element, what is in that law. Overwrites the law, the right-hand
-  /// side and the system of `w`.
+  /// unknown; `stiffening`: by element, what is in that law; `tangents`: by element, that of the
+  /// section's other laws, none where it has none. Overwrites the law, the right-hand side and the
+  /// system of `w`.
   LinearisedRod(const std::array<DynamicModulus, kComponents>& moduli,
                 const std::vector<Quat<double>>& joints, const EndParts& ends,
-                const std::vector<Stiffening<double>>& stiffening, const std::vector<bool>& held,
+                const std::vector<Stiffening<double>>& stiffening,
+                const std::vector<SectionMatrix>& tangents, const std::vector<bool>& held,
                 const Load* load, StepWorkspace<double>* w);
 
   int unknowns() const { return static_cast<int>(held.size()); }
@@ -44,6 +47,9 @@ struct LinearisedRod {
   Eigen::VectorXd mass;  ///< M, diagonal [kg], [kg m^2]
   SymmetricBands geometric, load_damping;
   std::vector<SymmetricBands> material;  ///< K_i
+  /// By component, what the section's other laws add to K(lambda), whatever lambda; none where it
+  /// has none.
+  std::vector<SymmetricBands> laws;
   std::array<DynamicModulus, kComponents> moduli;
   /// Displacement by the end nodes' first three unknowns, and rotation by the last three.
   Eigen::Matrix3d move_a, move_b, turn_a, turn_b;

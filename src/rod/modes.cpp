@@ -125,7 +125,9 @@ void ShareElasticEnergy(const LinearisedRod& rod, const VectorXd& x, Mode* mode)
   std::array<double, LinearisedRod::kComponents> energy;
   double sum = 0;
   for (int i = 0; i < LinearisedRod::kComponents; ++i) {
-    energy[i] = std::max(0.0, x.dot(rod.material[i] * x));
+    energy[i] = x.dot(rod.material[i] * x);
+    if (!rod.laws.empty()) energy[i] += x.dot(rod.laws[i] * x);
+    energy[i] = std::max(0.0, energy[i]);
     sum += energy[i];
   }
   if (!(sum > 0) || mode->w == 0) return;
@@ -203,7 +205,14 @@ std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
   m.PrepareStatics();
   const int unknowns = 6 * m.w.count;
   const std::vector<bool> held = HeldUnknowns(m.model, unknowns);
-  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, held, load, &m.w);
+  std::vector<SectionMatrix> tangents;
+  if (!m.laws.empty()) {
+    m.PlaceLawStress();
+    for (int e = 0; e < m.model.elements; ++e)
+      tangents.push_back(m.laws.SmallTangent(e, m.StaticStrain(m.StaticElement(e))));
+  }
+  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, tangents, held, load,
+                             &m.w);
   const Directions directions(rod, linear);
 
   const double length = m.model.length;

@@ -39,7 +39,8 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   m.w.persistence = {};
   m.w.trial = m.w.node;
   m.PrepareStatics();
-  EvaluateForces(&m.w);
+  m.laws.Reset();
+  m.EvaluateStatics();
   m.ends.a.Start(Motion::Resting(nodes.front()));
   m.ends.b.Start(Motion::Resting(nodes.back()));
   m.TakeRest();

@@ -18,7 +18,10 @@ struct RodBatch::ImplInLanes : Impl {
       : rods(all),
         impls(all.size()),
         reports(all.size()),
-        stepper(ChainLayout::Side(all.front()->elements()), *all.front()->impl_) {}
+        stepper(ChainLayout::Side(all.front()->elements()), *all.front()->impl_) {
+    for (const Rod* rod : all)
+      if (!rod->model().laws.empty()) stepper.SetNonlinear();
+  }
 
   const std::vector<SolveReport>& Step(double dt, const std::vector<RodDrive>& drives) override {
     // A rod that was assigned to has another one.

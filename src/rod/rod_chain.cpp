@@ -23,6 +23,7 @@ void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& 
     energy.Open({EndPower(), 0, 0}, StoredEnergy());
   }
   if (c.dt != dt_of_law_ || !branches.empty()) law_of_step_ = LawOfStep(c.dt);
+  laws.BeginStep(c.dt);
   dt_of_law_ = c.dt;
   a_before_ = ends.a.prescribed();
   b_before_ = ends.b.prescribed();
@@ -71,6 +72,10 @@ void Rod::Impl::FillLaw(int rod_lane, StepChain<T>* chain, double* dt_there) con
     SetLane(&shear_law.forwards, lane, forwards);
     if (!joints.empty()) FillJoints(lane, chain);
   }
+}
+
+LawsOfRod Rod::Impl::LawsOfStep() const {
+  return {laws.empty() ? nullptr : &laws, &branches, model.section.gamma0, model.section.kappa0};
 }
 
 template <class T>
@@ -176,7 +181,7 @@ void Rod::Impl::TakeState(const StepChain<T>& chain, int rod_lane) {
     stiffening[e] =
         chain.taut ? GetLane(chain.stiffening[at.entry], at.lane) : Stiffening<double>{};
     stress_[e] = StressIn(chain, at.entry, at.lane, e);
-    if (branches.empty()) continue;
+    if (!has_branch_stress()) continue;
     stress_[e].n += ToSmall(branch_stress_[e].F);
     stress_[e].m += ToSmall(branch_stress_[e].M);
   }
@@ -199,6 +204,10 @@ double Rod::Impl::CommitBranches(const StepChain<T>& chain, int rod_lane) {
     branch_stress_[e] = branches.Offset(e);
     branch_stress_[e].F += stiffness.F.cwiseProduct(strain.gamma);
     branch_stress_[e].M += stiffness.M.cwiseProduct(strain.kappa);
+    if (!laws.empty()) {
+      branch_stress_[e] += Split(laws.Evaluate(e, strain, 0).stress);
+      lost_in_step_ += h * laws.Commit(e, strain);
+    }
     branches.Commit(e, strain);
     rate += branches.DissipationRate(e);
   }
@@ -222,7 +231,8 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   dissipation_rate_ = 0;
   for (int lane = 0; lane < kLaneCount<T>; ++lane)
     if (layout.halves || lane == rod_lane) dissipation_rate_ += GetLane(chain.dissipation, lane);
-  if (!branches.empty()) dissipation_rate_ += h * CommitBranches(chain, rod_lane);
+  lost_in_step_ = 0;
+  if (has_branch_stress()) dissipation_rate_ += h * CommitBranches(chain, rod_lane);
   address.fetched = false;
 }
 

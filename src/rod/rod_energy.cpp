@@ -12,6 +12,7 @@ double Rod::Impl::StaticEnergy() const {
     energy +=
         0.5 * h * (Dot(gamma, Scale(w.law.C_F, gamma)) + Dot(kappa, Scale(w.law.C_M, kappa))) +
         h * StiffeningEnergy(e, now.gamma, now.kappa);
+    if (!laws.empty()) energy += h * laws.Potential(e, StrainOf(now));
   }
   return energy + ends.a.SpringEnergy(w.trial.front()) + ends.b.SpringEnergy(w.trial.back());
 }
@@ -46,6 +47,7 @@ double Rod::Impl::ElasticEnergy() const {
                    0.5 * model.section.C_F.z() * gamma.z() * gamma.z() +
                    0.5 * kappa.dot(model.section.C_M.cwiseProduct(kappa)) + branches.Energy(e) +
                    StiffeningEnergy(e, Stress(e).gamma, Stress(e).kappa));
+    if (!laws.empty()) energy += h * laws.Energy(e, strain);
   }
   return energy + ends.a.SpringEnergy(w.node.front()) + ends.b.SpringEnergy(w.node.back());
 }
@@ -68,7 +70,7 @@ void Rod::Impl::AccountForStep(double dt, double load_power) {
       ends.a.SpringDissipationRate(w.node.front()) + ends.b.SpringDissipationRate(w.node.back());
   const EnergyBook::Flow flow = {EndPower(), load_power, dissipation_rate_ + in_ends};
   if (!energy.waits()) {
-    energy.Add(dt, flow);
+    energy.Add(dt, flow, lost_in_step_);
     return;
   }
   Fetch();

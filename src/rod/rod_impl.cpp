@@ -37,6 +37,7 @@ Rod::Impl::Impl(const RodModel& m)
       shear1(MakeShearSeries(m.section, h, 0, 1)),  // shear along a1 goes with bending about a2
       shear2(MakeShearSeries(m.section, h, 1, 0)),
       branches(m.branches, m.elements),
+      laws(m.laws, m.elements),
       joints(JointsByNode(m)),
       ends{EndPart(m.a), EndPart(m.b)},
       w(m.elements),
@@ -47,7 +48,7 @@ Rod::Impl::Impl(const RodModel& m)
       missing_b{},
       law_of_step_{},
       stress_(m.elements),
-      branch_stress_(m.branches.empty() ? 0 : m.elements) {
+      branch_stress_(m.branches.empty() && m.laws.empty() ? 0 : m.elements) {
   for (int i = 0; i < w.count; ++i) {
     const double share = (i == 0 || i == w.count - 1) ? 0.5 * h : h;
     w.mass[i] = share * m.section.rhoA;
@@ -197,9 +198,11 @@ void Rod::Impl::TakeRest() {
     const ElementStrain strain = StrainOf(stress_[e]);
     shear[e] = {shear1.Rest(strain.gamma.x()), shear2.Rest(strain.gamma.y())};
     branches.Rest(e, strain);
-    if (branches.empty()) continue;
+    laws.Rest(e, strain);
+    if (!has_branch_stress()) continue;
     branch_stress_[e].F = relaxed.F.cwiseProduct(strain.gamma);
     branch_stress_[e].M = relaxed.M.cwiseProduct(strain.kappa);
+    if (!laws.empty()) branch_stress_[e] += Split(laws.Evaluate(e, strain, 0).stress);
   }
   dissipation_rate_ = 0;
   energy.Close();

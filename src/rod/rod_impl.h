@@ -12,6 +12,7 @@
 #include "energy_book.h"
 #include "rod_home.h"
 #include "section_branches.h"
+#include "section_laws.h"
 #include "step_workspace.h"
 
 namespace cosserat_cable::rod {
@@ -36,6 +37,7 @@ struct Rod::Impl {
   double h;  // element length [m]
   ShearSeries shear1, shear2;
   SectionBranches branches;
+  SectionLaws laws;
   std::vector<Quat<double>> joints;  // by node; none of a rod without joints
   EndParts ends;
 
@@ -61,6 +63,14 @@ struct Rod::Impl {
   void PrepareStatics();
   /// The law at `tension`, for statics.
   void StiffenElements();
+  /// Forces of the iterate, and their tangent, with the law in `w` and those of the section.
+  void EvaluateStatics();
+  void AssembleStatics();
+  /// Sets the elements' offsets to what the section's laws make of the iterate's strains.
+  void PlaceLawStress();
+  /// Of an element of that iterate.
+  LawElement StaticElement(int element) const;
+  ElementStrain StaticStrain(const LawElement& element) const;
   /// Takes over the tensions of the iterate; returns the largest change of what they make of the
   /// law, relative to the bending stiffness.
   double UpdateTensions();
@@ -90,6 +100,9 @@ struct Rod::Impl {
   /// as long [s] is there and does not change from step to step.
   template <class T>
   void FillLaw(int lane, StepChain<T>* chain, double* dt_there) const;
+  /// Whether the section has more than its Kelvin-Voigt elements.
+  bool has_branch_stress() const { return !branch_stress_.empty(); }
+  LawsOfRod LawsOfStep() const;
   /// What the branches add to the offsets of the chain: of a rod without any, nothing.
   template <class T>
   void FillBranches(int lane, StepChain<T>* chain) const;
@@ -129,8 +142,8 @@ struct Rod::Impl {
   template <class T>
   void FillJoints(int lane, StepChain<T>* chain) const;
   ElementStrain StrainOf(const ElementStress& stress) const;
-  /// Gives the branches of a lane's elements their strains at the step's end; returns the sum of
-  /// what they dissipate, per length [W/m].
+  /// Gives the branches and laws of a lane's elements their strains at the step's end; returns the
+  /// sum of what the branches dissipate, per length [W/m].
   template <class T>
   double CommitBranches(const StepChain<T>& chain, int lane);
   template <class T>
@@ -140,9 +153,10 @@ struct Rod::Impl {
   double dt_of_law_ = 0;                     // of the last step begun [s]
   ElementLaw<double> law_of_step_;           // of that step
   PrescribedMotion a_before_, b_before_;     // clamps at its start
-  double dissipation_rate_ = 0;              // of the sections [W]
+  double dissipation_rate_ = 0;              // of the sections [W], their laws left out:
+  double lost_in_step_ = 0;                  // what those have dissipated in the last step [J]
   std::vector<ElementStress> stress_;        // by element
-  std::vector<SectionValue> branch_stress_;  // the branches' part of it
+  std::vector<SectionValue> branch_stress_;  // the branches' and laws' part of it
 };
 
 }  // namespace cosserat_cable::rod

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "block_tridiagonal.h"
 #include "element_joint.h"
 #include "node_elimination.h"
 #include "shear_series.h"
@@ -179,6 +180,13 @@ struct StepChain {
     joints.assign(layout.chain_elements, {straight, straight});
   }
 
+  /// Makes room for the tangents of section laws; none yet.
+  void SetNonlinear() {
+    if (!law_diagonal.empty()) return;
+    law_diagonal.resize(nodes.size());
+    law_lower.resize(nodes.size());
+  }
+
   /// Which end nodes of the rods are held.
   void SetHeld(bool a, bool b) {
     const int end = layout.chain_elements;
@@ -229,7 +237,7 @@ struct StepChain {
   std::vector<ChainNode<T>> nodes;
   std::vector<NodeMass<T>> masses;
   std::vector<ShearOffset<T>> shear_offsets;
-  std::vector<ElementOffset<T>> branch_offsets;  // only where `branched`
+  std::vector<ElementOffset<T>> branch_offsets;  // only where `branched`; those of laws as well
   std::vector<ElementJoint<T>> joints;           // none of rods without joints
   std::vector<ChainStrain<T>> strains;           // found when asked for
   T dissipation = 0.0;                           // of the accepted iterate [W]
@@ -244,6 +252,12 @@ struct StepChain {
   std::vector<Vec6<T>> load_rhs;
   std::vector<Triangle6<T>> load_diagonal;
   std::vector<Mat3<T>> load_lower;
+
+  // Whether any rod's section has laws that are not linear over a step; what those add to the
+  // nodes' own blocks of the tangent, and to the block of an entry's node (rows) and the next.
+  bool nonlinear = false;
+  std::vector<Triangle6<T>> law_diagonal;
+  std::vector<Block6<T>> law_lower;
 
   // Whether some element may be turned too far for the series of its functions.
   bool careful = false;

@@ -68,6 +68,13 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
     }
   };
 
+  const auto add_laws = [&](bool tangent, const auto& wanted) {
+    if (!chain->nonlinear) return;
+    if (tangent) ClearLaws(chain);
+    for (int r = 0; r < count; ++r)
+      if (rods[r].laws.laws && wanted(r)) AddLaws(c, rods[r].laws, r, tangent, chain);
+  };
+
   ImposedAttitudes imposed[kLanes];
   const auto impose_ends = [&] {
     for (int r = 0; r < count; ++r) {
@@ -96,6 +103,7 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
   for (int iteration = 1; iteration <= kMaxIterations && any_running(); ++iteration) {
     const bool fresh = iteration == 1 || iteration >= kRefactorFrom;
     add_loads(fresh, true, [&](int r) { return running[r]; });
+    add_laws(fresh, [&](int r) { return running[r]; });
     ChainCorrection<T> size;
     bool definite[kLanes];
     const auto solve = [&](auto* solver, auto pivot) {
@@ -129,6 +137,7 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
 
   // What the clamps exert is not a load: it is what their nodes lack.
   add_loads(false, false, [&](int r) { return rods[r].report.converged; });
+  add_laws(false, [&](int r) { return rods[r].report.converged; });
 }
 
 template void SolveStep(const StepCoefficients&, StepChain<WideLanes>*, StepOfRod*);

@@ -1,6 +1,7 @@
 // One implicit step of generalised-alpha on the configuration space R^3 x SO(3) per node.
 #pragma once
 
+#include "chain_laws.h"
 #include "chain_solver.h"
 #include "cosserat_cable/rod/rod.h"
 #include "end_part.h"
@@ -13,8 +14,9 @@ struct StepOfRod {
   double length = 1;    ///< [m]
   const Load* load = nullptr;
   const EndParts* ends = nullptr;  ///< of every rod in the chain
-  SolveReport report;              ///< out
-  double load_power = 0;           ///< out: of `load` at the step's end [W]
+  LawsOfRod laws;
+  SolveReport report;     ///< out
+  double load_power = 0;  ///< out: of `load` at the step's end [W]
 };
 
 /// Finds the iterate in which all forces balance, for each rod of the chain. Expects the first

@@ -11,6 +11,9 @@
 #include <random>
 
 #include "cosserat_cable/math/small_eigen.h"
+#include "cosserat_cable/rod/bending_friction.h"
+#include "cosserat_cable/rod/bending_softening.h"
+#include "cosserat_cable/rod/linear_section.h"
 #include "cosserat_cable/rod/maxwell.h"
 #include "cosserat_cable/rod/rod_batch.h"
 #include "rod/rod_cases.h"
@@ -118,6 +121,20 @@ Lane RandomLane(Ends ends, int elements, Random* random) {
     stiffness.F.z() = random->Chance(0.3) ? 0.2 * model.section.C_F.z() : 0;
     stiffness.M = EI * Vector3d(random->Between(0, 1), random->Between(0, 1), 0.3);
     model.branches.push_back(std::make_shared<MaxwellBranch>(stiffness, random->Decade(-4, 1)));
+  }
+  if (random->Chance(0.3))
+    model.laws.push_back(std::make_shared<BendingFriction>(
+        EI * random->Between(0, 1), random->Decade(-1, 1), random->Between(0, 1)));
+  if (random->Chance(0.2))
+    model.laws.push_back(
+        std::make_shared<BendingSoftening>(EI, random->Between(-0.5, 1), random->Decade(-1, 1)));
+  if (random->Chance(0.2)) {
+    SectionMatrix coupling = SectionMatrix::Zero();
+    coupling(3, 5) = coupling(5, 3) = EI * random->Between(-0.2, 0.2);
+    if (random->Chance(0.5))
+      coupling(2, 5) = coupling(5, 2) =
+          0.2 * std::sqrt(EI * model.section.C_F.z()) * random->Between(-1, 1);
+    model.laws.push_back(std::make_shared<LinearSection>(coupling));
   }
   for (int k = random->Whole(0, 2); k > 0; --k)
     model.bodies.push_back(

@@ -17,6 +17,7 @@
 #include "cosserat_cable/rod/load.h"
 #include "cosserat_cable/rod/section.h"
 #include "cosserat_cable/rod/section_branch.h"
+#include "cosserat_cable/rod/section_law.h"
 
 namespace cosserat_cable::rod {
 
@@ -41,6 +42,7 @@ struct RodModel {
   Section section;
   /// What the section has beside its Kelvin-Voigt elements; each rod clones them.
   std::vector<std::shared_ptr<const SectionBranch>> branches;
+  std::vector<std::shared_ptr<const SectionLaw>> laws;
   std::vector<LumpedBody> bodies;
   /// A node's own frame is the one before its joint.
   std::vector<Joint> joints;
@@ -99,7 +101,8 @@ class Rod : public Centreline {
 
   /// Static equilibrium by energy minimisation from the present configuration (regularised Newton
   /// with a line search) with the ends held by the clamps. Velocities become zero. Under a load
-  /// without a potential, by Newton's method with bounded steps: then from near enough.
+  /// without a potential, by Newton's method with bounded steps: then from near enough. A section's
+  /// laws forget what they were: they come to this rest once, straight from the unstressed state.
   SolveReport Equilibrate(const Load* load = nullptr);
   /// The same from a configuration that is nearly there, without a detour by way of rods that
   /// stretch more easily: for loads that hold only where they were seen, as contact.
