@@ -25,6 +25,7 @@ class EnergyBook {
     ends_.Restart(flow.ends);
     loads_.Restart(flow.loads);
     dissipation_.Restart(flow.dissipation);
+    by_section_ = 0;
     stored_at_start_ = stored;
     open_ = true;
     waits_ = false;
@@ -34,9 +35,12 @@ class EnergyBook {
     loads_.Add(dt, flow.loads);
     dissipation_.Add(dt, flow.dissipation);
   }
+  /// What a change of the section puts in [J].
+  void AddSectionChange(double work) { by_section_ += work; }
   EnergyBalance Balance(double stored) const {
     if (!open_) return {};
-    return {ends_.work(), loads_.work(), dissipation_.work(), stored - stored_at_start_};
+    return {ends_.work(), loads_.work(), dissipation_.work(), stored - stored_at_start_,
+            by_section_};
   }
 
  private:
@@ -58,7 +62,7 @@ class EnergyBook {
   };
 
   bool open_ = false, waits_ = false;
-  double stored_at_start_ = 0;
+  double stored_at_start_ = 0, by_section_ = 0;
   Integral ends_, loads_, dissipation_;
 };
 
