@@ -2,7 +2,7 @@
 //
 // A new one is a file extension_NAME.cpp with its keys and what it does to the rod, its test, its
 // entry in extension_laws.cpp, and its paragraph in config/cables/template.yaml. Reading, writing,
-// naming its numbers in `uncertain` and reporting mistakes follow from the keys.
+// its numbers in the registry of parameters, and reporting mistakes follow from the keys.
 #pragma once
 
 #include <optional>
@@ -28,12 +28,15 @@ struct ExtensionField {
   std::optional<double> otherwise =
       std::nullopt;   ///< where it is left out; nothing: then it is absent
   bool pair = false;  ///< one key for both directions (EI) or two (EI1, EI2)
+  /// Where the whole entry has no effect; nothing: nowhere, or it takes other numbers too.
+  std::optional<double> neutral = std::nullopt;
 };
 
 struct ExtensionLaw {
   std::string name;
-  std::string shape;  ///< what is said to be expected of an entry (of a list's item)
-  bool list = false;  ///< one or more of the same
+  std::string shape;       ///< what is said to be expected of an entry (of a list's item)
+  bool list = false;       ///< one or more of the same
+  bool of_record = false;  ///< acts over a record's time: a measurement set only
   std::vector<ExtensionField> fields;
   /// Reports what does not go with the rest of the cable; may be null.
   void (*check)(const ExtensionKey& key, const CableKeys& cable, Problems* problems) = nullptr;
@@ -42,5 +45,9 @@ struct ExtensionLaw {
 
 /// Every one that there is.
 const std::vector<ExtensionLaw>& ExtensionLaws();
+/// @throws std::invalid_argument for an extension that there is not
+const ExtensionLaw& LawOf(const CableExtension& extension);
+/// The paths of a field's numbers: two of a pair.
+std::vector<std::string> NumberPaths(const ExtensionField& field);
 
 }  // namespace cosserat_cable
