@@ -12,7 +12,7 @@ NOISE_FROM = {'set': 'given', 'record': 'the record', 'repeats': 'repeated steps
               'residual': 'the residual: there is no other way'}
 UNITS = {'EI': 'N m^2', 'EI1': 'N m^2', 'EI2': 'N m^2', 'GJ': 'N m^2', 'EA': 'N', 'GA': 'N',
          'eta_EI': 'N m^2 s', 'eta_EI1': 'N m^2 s', 'eta_EI2': 'N m^2 s', 'eta_GJ': 'N m^2 s',
-         'eta_EA': 'N s', 'eta_GA': 'N s', 'D_E': 'N m s', 'length': 'm', 'mass_per_length': 'kg/m'}
+         'eta_EA': 'N s', 'eta_GA': 'N s', figures.END_DAMPING: 'N m s/rad', 'length': 'm', 'mass_per_length': 'kg/m'}
 
 
 def number(value, sd=0.0):

@@ -7,6 +7,9 @@ import numpy as np
 
 import page_figures
 
+# The loss at the disc: D_E in the source paper's formulas.
+END_DAMPING = 'extensions.clamp_damping.b.torsion'
+
 plt = page_figures.pyplot('identification')
 
 WIDTH = 10.5
@@ -125,7 +128,7 @@ def torsion_lengths(data):
     direct = data.get('direct') or {}
     rings = [r for r in direct.get('torsion', []) if 'refused' not in r]
     values = direct.get('values', {})
-    if 'eta_GJ' not in values or 'D_E' not in values:
+    if 'eta_GJ' not in values or END_DAMPING not in values:
         return None
     figure, axes = plt.subplots(figsize=(0.68 * WIDTH, 3.8))
     inverse = np.array([1 / r['length'] for r in rings])
@@ -136,12 +139,12 @@ def torsion_lengths(data):
                   label='ring-downs, 95 %')
     x = np.linspace(0, 1.1 * inverse.max(), 100)
     lines = [('direct', DIRECT, [values['eta_GJ']['value'], values['eta_GJ']['sd']],
-              [values['D_E']['value'], values['D_E']['sd']],
+              [values[END_DAMPING]['value'], values[END_DAMPING]['sd']],
               direct.get('eta_GJ_D_E_correlation', 0.0))]
     full = data.get('parameters', {})
-    if full.get('eta_GJ') and full.get('D_E'):
-        lines.append(('full estimate', FIT, full['eta_GJ'], full['D_E'],
-                      _correlation_of(data, 'eta_GJ', 'D_E')))
+    if full.get('eta_GJ') and full.get(END_DAMPING):
+        lines.append(('full estimate', FIT, full['eta_GJ'], full[END_DAMPING],
+                      _correlation_of(data, 'eta_GJ', END_DAMPING)))
     for name, colour, eta, d_e, correlation in lines:
         middle, half = eta[0] * x + d_e[0], _band(x, eta, d_e, correlation)
         axes.plot(x, middle, color=colour, linewidth=1.2, label=f'{name}: eta_GJ/L + D_E')

@@ -5,6 +5,8 @@
 #include "cosserat_cable/cable/cable_model.h"
 #include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/map_reader.h"
+#include "extensions.h"
+#include "parameter_spec.h"
 
 namespace cosserat_cable {
 namespace {
@@ -72,6 +74,8 @@ class CableReader {
     if (type_keys) keys.FillFrom(*type_keys);
     // A type that is not there may have had the keys that are missing.
     const bool complete = map.ok() && (type_keys || !type.given());
+    RefuseUncertainFaults(keys);
+    if (clamped) RefuseExtensionsOfRecords(keys, problems_);
     CableModel model = complete ? CompleteCable(keys, map.mark(), problems_) : CableModel();
 
     model.name = name.Name().value_or(file_->specimen ? "cable" : "");
@@ -102,6 +106,15 @@ class CableReader {
   }
 
  private:
+  void RefuseUncertainFaults(const CableKeys& keys) {
+    if (!keys.uncertain.value) return;
+    for (const UncertainKey& key : *keys.uncertain.value)
+      if (key.name.rfind(FaultPrefix(), 0) == 0)
+        problems_->Add(key.mark, "got '" + key.name +
+                                     "', a fault of a record, expected it in the "
+                                     "`uncertain` of a measurement set");
+  }
+
   void CheckNameIsItsOwn(const std::string& name, const SourceMark& mark) {
     if (name.empty()) return;
     const auto inserted = name_lines_.emplace(name, mark.line);
@@ -122,6 +135,7 @@ void ReadFile(const YamlValue& root, CableFile* file, Problems* problems) {
   const Types types = ReadTypes(map.Optional("types"));
   const YamlValue specimen = map.Optional("cable");
   const YamlValue cables = map.Optional("cables");
+  map.Refuse("faults", kFaultsOfACable);
   if (specimen.given() && cables.given()) {
     cables.Report("got this beside `cable`, expected either `cable` or `cables`");
   }

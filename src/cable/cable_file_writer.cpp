@@ -84,7 +84,12 @@ std::string WriteCable(const CableModel& cable, const std::string& indent) {
     out.Clamp("b", cable.b);
   }
   out.Number("length", cable.length);
-  out.Number("diameter", cable.diameter);
+  if (cable.flat()) {
+    out.Number("width", cable.width);
+    out.Number("height", cable.height);
+  } else {
+    out.Number("diameter", cable.diameter);
+  }
   out.Number("mass_per_length", cable.mass_per_length);
   out.Pair("EI", cable.EI1, cable.EI2);
   out.Number("GJ", cable.GJ);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cable_key_specs.h"
@@ -6,6 +7,7 @@
 #include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/number_text.h"
 #include "extensions.h"
+#include "parameter_spec.h"
 
 namespace cosserat_cable {
 namespace {
@@ -69,7 +71,12 @@ class Completion {
 
 void CheckPresence(const CableKeys& keys, Completion* check) {
   check->Require(keys.length, "length", LengthSpec().Expected());
-  check->Require(keys.diameter, "diameter", DiameterSpec().Expected());
+  if (keys.width.given() || keys.height.given()) {
+    check->Require(keys.width, "width", DiameterSpec().Expected());
+    check->Require(keys.height, "height", DiameterSpec().Expected());
+  } else {
+    check->Require(keys.diameter, "diameter", DiameterSpec().Expected() + ", or width and height");
+  }
   check->Require(keys.mass_per_length, "mass_per_length", MassPerLengthSpec().Expected());
   check->Require(keys.EI, "EI", BendingStiffnessSpec().Expected() + ", or EI1 and EI2");
   check->Require(keys.GJ, "GJ", BendingStiffnessSpec().Expected());
@@ -84,9 +91,8 @@ void CheckPresence(const CableKeys& keys, Completion* check) {
 void CheckAlongLength(const CableKeys& keys, Completion* check) {
   if (!keys.length.value) return;
   const double length = *keys.length.value;
-  if (keys.diameter.value) {
-    check->Bound(*keys.diameter.value, length / 2, keys.diameter.mark, " [m], half the length");
-  }
+  for (const CableKey<double>* side : {&keys.diameter, &keys.width, &keys.height})
+    if (side->value) check->Bound(*side->value, length / 2, side->mark, " [m], half the length");
   if (keys.apex_s.value) {
     check->Bound(*keys.apex_s.value, length, keys.apex_s.mark, " [m], the length");
   }
@@ -97,26 +103,40 @@ void CheckAlongLength(const CableKeys& keys, Completion* check) {
 }
 
 void CheckMaterial(const CableKeys& keys, Completion* check) {
-  if (!keys.diameter.value) return;
-  const double d = *keys.diameter.value;
+  const std::optional<SectionShape> shape = ShapeOf(keys);
+  if (!shape) return;
+  const double area = shape->area();
   if (keys.mass_per_length.value) {
-    check->Bound(*keys.mass_per_length.value, kDensest * kPi * d * d / 4, keys.mass_per_length.mark,
+    check->Bound(*keys.mass_per_length.value, kDensest * area, keys.mass_per_length.mark,
                  " [kg/m], ten times a bar of the densest metal: is it in g/m?");
   }
   const std::string why = " [N m^2], four times a bar of diamond: is it in N mm^2?";
-  const double stiffest = kStiffest * kPi * std::pow(d, 4) / 64;
+  const std::array<double, 2> stiffest = {kStiffest * area * shape->gyration1(),
+                                          kStiffest * area * shape->gyration2()};
   if (keys.EI.value) {
-    check->Bound(std::max((*keys.EI.value)[0], (*keys.EI.value)[1]), stiffest, keys.EI.mark, why);
+    const auto& [EI1, EI2] = *keys.EI.value;
+    // A strip has one that no round bar has.
+    const std::string either =
+        shape->flat() || EI1 == EI2 ? why : why + " Is the section flat (width and height)?";
+    check->Bound(EI1, stiffest[0], keys.EI.mark, either);
+    if (EI1 != EI2 || (shape->flat() && EI1 <= stiffest[0]))
+      check->Bound(EI2, stiffest[1], keys.EI.second.line > 0 ? keys.EI.second : keys.EI.mark,
+                   either);
   }
-  if (keys.GJ.value) check->Bound(*keys.GJ.value, stiffest, keys.GJ.mark, why);
+  // No section is stiffer in torsion than by its polar moment, with half the modulus.
+  if (keys.GJ.value)
+    check->Bound(*keys.GJ.value, 0.5 * (stiffest[0] + stiffest[1]), keys.GJ.mark, why);
 }
 
 void FillStiffness(const CableKeys& keys, CableModel* model) {
   model->EI1 = (*keys.EI.value)[0];
   model->EI2 = (*keys.EI.value)[1];
   model->GJ = *keys.GJ.value;
-  const double d = model->diameter;
-  model->EA = keys.EA.value.value_or(16 * std::min(model->EI1, model->EI2) / (d * d));
+  const double d = model->diameter, w = model->width, h = model->height;
+  const double by_bending = model->flat()
+                                ? 12 * std::min(model->EI1 / (h * h), model->EI2 / (w * w))
+                                : 16 * std::min(model->EI1, model->EI2) / (d * d);
+  model->EA = keys.EA.value.value_or(by_bending);
   const double GA = model->EA / 3;
   const std::array<double, 2> shear = keys.GA.value.value_or(std::array<double, 2>{GA, GA});
   model->GA1 = shear[0];
@@ -135,8 +155,8 @@ void FillDamping(const CableKeys& keys, CableModel* model) {
                           slowest * std::sqrt(model->mass_per_length * model->EA));
   const std::array<DampingKey, 2> shear =
       keys.eta_GA.value.value_or(std::array<DampingKey, 2>{critical, critical});
-  model->eta_GA1 = ValueOf(shear[0], 2 * std::sqrt(model->rhoI() * model->GA1));
-  model->eta_GA2 = ValueOf(shear[1], 2 * std::sqrt(model->rhoI() * model->GA2));
+  model->eta_GA1 = ValueOf(shear[0], 2 * std::sqrt(model->rhoI2() * model->GA1));
+  model->eta_GA2 = ValueOf(shear[1], 2 * std::sqrt(model->rhoI1() * model->GA2));
 }
 
 void FillAvoid(const CableKeys& keys, CableModel* model) {
@@ -160,13 +180,30 @@ void FillExtensions(const CableKeys& keys, CableModel* model) {
   for (const ExtensionKey& key : *keys.extensions.value) model->extensions.push_back(key.extension);
 }
 
+bool HasEntry(const CableModel& model, const std::string& path) {
+  return std::any_of(model.extensions.begin(), model.extensions.end(),
+                     [&](const CableExtension& extension) {
+                       const std::string begin = ExtensionPrefix() + extension.name;
+                       const char next = path.size() > begin.size() ? path[begin.size()] : ' ';
+                       return path.rfind(begin, 0) == 0 && (next == '.' || next == '[');
+                     });
+}
+
+// An extension that the cable does not have may be named where it has no effect at some value: that
+// is where it starts from.
 void FillUncertain(const CableKeys& keys, CableModel* model, Problems* problems) {
   if (!keys.uncertain.value) return;
-  const std::vector<std::string> numbers = ExtensionNumberNames(model->extensions);
+  const std::vector<std::string> numbers = ExtensionPaths(model->extensions);
   for (const UncertainKey& key : *keys.uncertain.value) {
+    if (key.name.rfind(FaultPrefix(), 0) == 0) continue;  // of the record
     model->uncertain.push_back(key.name);
-    const bool known = std::find(numbers.begin(), numbers.end(), key.name) != numbers.end();
-    if (known || key.name.rfind(ExtensionNumberPrefix(), 0) != 0) continue;
+    if (key.name.rfind(ExtensionPrefix(), 0) != 0) continue;
+    if (std::find(numbers.begin(), numbers.end(), key.name) != numbers.end()) continue;
+    CableKeys made = keys;
+    const std::optional<Parameter> known = FindParameter(key.name);
+    if (known && known->neutral && !HasEntry(*model, key.name) &&
+        !MakeExtensionNumbers(key.name, &made).empty())
+      continue;
     const std::string nearest = NearestWord(key.name, numbers);
     problems->Add(key.mark, "got '" + key.name + "', expected a number of the cable's extensions" +
                                 (nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));
@@ -174,6 +211,13 @@ void FillUncertain(const CableKeys& keys, CableModel* model, Problems* problems)
 }
 
 }  // namespace
+
+std::optional<SectionShape> ShapeOf(const CableKeys& keys) {
+  if (keys.width.value && keys.height.value)
+    return SectionShape{0, *keys.width.value, *keys.height.value};
+  if (keys.diameter.value) return SectionShape{*keys.diameter.value, 0, 0};
+  return std::nullopt;
+}
 
 CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problems* problems) {
   Completion check(cable, problems);
@@ -187,7 +231,10 @@ CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problem
   if (!check.ok()) return model;
 
   model.length = *keys.length.value;
-  model.diameter = *keys.diameter.value;
+  const SectionShape shape = *ShapeOf(keys);
+  model.diameter = shape.largest();
+  model.width = shape.width;
+  model.height = shape.height;
   model.mass_per_length = *keys.mass_per_length.value;
   FillStiffness(keys, &model);
   FillDamping(keys, &model);

@@ -4,6 +4,7 @@
 #include "cable_key_specs.h"
 #include "cosserat_cable/cable/cable_keys.h"
 #include "extensions.h"
+#include "parameter_spec.h"
 #include "read_pair.h"
 
 namespace cosserat_cable {
@@ -11,19 +12,6 @@ namespace {
 
 constexpr int kFewestElements = 4;
 constexpr int kMostElements = 1000;
-
-// What `uncertain` may name besides numbers of the extensions: every numeric key of a cable, and
-// those of a rig's disc: its inertia, and D_E of eqs. (12) and (13), the dashpot at its fixation.
-const std::vector<std::string>& NumericKeys() {
-  static const std::vector<std::string> keys = {"length",  "diameter",     "mass_per_length",
-                                                "EI",      "EI1",          "EI2",
-                                                "GJ",      "EA",           "GA",
-                                                "GA1",     "GA2",          "eta_EI",
-                                                "eta_EI1", "eta_EI2",      "eta_GJ",
-                                                "eta_EA",  "eta_GA",       "eta_GA1",
-                                                "eta_GA2", "disc.inertia", "D_E"};
-  return keys;
-}
 
 enum class Critical { kKnown, kNone };
 
@@ -64,9 +52,14 @@ CableKey<std::vector<UncertainKey>> ReadUncertain(const YamlValue& value) {
   if (!value.given()) return {};
   std::vector<UncertainKey> keys;
   for (const YamlValue& item : value.Items("a list of the names of numeric keys")) {
-    // Which numbers the extensions have is known once the cable's type has been asked.
-    const bool of_extension = item.Shown().rfind("'" + ExtensionNumberPrefix(), 0) == 0;
-    const auto key = of_extension ? item.Text() : item.OneOf(NumericKeys());
+    // Which numbers extensions and faults have is known once all has been read.
+    const bool later = item.Shown().rfind("'" + ExtensionPrefix(), 0) == 0 ||
+                       item.Shown().rfind("'" + FaultPrefix(), 0) == 0;
+    if (item.IsText("D_E")) {
+      item.Report(std::string("got 'D_E', expected it by its path: '") + kEndDamping + "'");
+      continue;
+    }
+    const auto key = later ? item.Text() : item.OneOf(ParameterPaths({}));
     if (key) keys.push_back({*key, item.mark()});
   }
   return {keys, value.mark()};
@@ -124,6 +117,19 @@ CableKey<ContactKey> ReadContact(const YamlValue& value) {
   return {law, value.mark()};
 }
 
+void ReadShape(MapReader* map, CableKeys* keys) {
+  const YamlValue diameter = map->Optional("diameter");
+  const YamlValue width = map->Optional("width"), height = map->Optional("height");
+  keys->diameter = ReadNumber(diameter, DiameterSpec());
+  keys->width = ReadNumber(width, DiameterSpec());
+  keys->height = ReadNumber(height, DiameterSpec());
+  const YamlValue& one = width.given() ? width : height;
+  if (diameter.given())
+    one.Report("got this beside diameter, expected either diameter, or width and height");
+  else if (width.given() != height.given())
+    one.Report("got this alone, expected width and height, or diameter");
+}
+
 template <typename T>
 void Fill(CableKey<T>* key, const CableKey<T>& other) {
   if (!key->given()) *key = other;
@@ -134,7 +140,7 @@ void Fill(CableKey<T>* key, const CableKey<T>& other) {
 CableKeys ReadCableKeys(MapReader* map) {
   CableKeys keys;
   keys.length = ReadNumber(map->Optional("length"), LengthSpec());
-  keys.diameter = ReadNumber(map->Optional("diameter"), DiameterSpec());
+  ReadShape(map, &keys);
   keys.mass_per_length = ReadNumber(map->Optional("mass_per_length"), MassPerLengthSpec());
   keys.EI = ReadPair<double>(
       map, "EI", [](const YamlValue& value) { return value.Number(BendingStiffnessSpec()); });
@@ -168,12 +174,17 @@ CableKeys ReadCableKeys(MapReader* map) {
   keys.use_visual = ReadUseVisual(map->Optional("use_visual"));
   keys.contact = ReadContact(map->Optional("contact"));
   keys.extensions = ReadExtensions(map->Optional("extensions"));
+  map->Refuse("faults", kFaultsOfACable);
   return keys;
 }
 
 void CableKeys::FillFrom(const CableKeys& other) {
   Fill(&length, other.length);
-  Fill(&diameter, other.diameter);
+  if (!diameter.given() && !width.given() && !height.given()) {
+    diameter = other.diameter;
+    width = other.width;
+    height = other.height;
+  }
   Fill(&mass_per_length, other.mass_per_length);
   Fill(&EI, other.EI);
   Fill(&GJ, other.GJ);
@@ -191,6 +202,7 @@ void CableKeys::FillFrom(const CableKeys& other) {
   Fill(&use_visual, other.use_visual);
   Fill(&contact, other.contact);
   Fill(&extensions, other.extensions);
+  Fill(&faults, other.faults);
 }
 
 }  // namespace cosserat_cable

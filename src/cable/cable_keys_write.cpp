@@ -74,6 +74,8 @@ std::string WriteCableKeys(const CableKeys& keys, const std::string& indent) {
   KeyWriter out(indent);
   out.Key("length", keys.length);
   out.Key("diameter", keys.diameter);
+  out.Key("width", keys.width);
+  out.Key("height", keys.height);
   out.Key("mass_per_length", keys.mass_per_length);
   out.Key("EI", keys.EI);
   out.Key("GJ", keys.GJ);

@@ -15,7 +15,7 @@ rod::RodModel MakeRodModel(const CableModel& cable, const Eigen::Vector3d& gravi
   section.V_F = {cable.eta_GA1, cable.eta_GA2, cable.eta_EA};
   section.V_M = {cable.eta_EI1, cable.eta_EI2, cable.eta_GJ};
   section.rhoA = cable.mass_per_length;
-  section.rhoJ = {cable.rhoI(), cable.rhoI(), cable.rhoJ()};
+  section.rhoJ = {cable.rhoI1(), cable.rhoI2(), cable.rhoJ()};
   for (const LumpedMass& m : cable.masses)
     rod.bodies.push_back({m.s, m.mass, Eigen::Vector3d::Zero()});
   EnterExtensions(cable, &rod);

@@ -35,7 +35,10 @@ double DefaultContactStiffness(const CableModel& cable) {
   const double bending = 96 * EI / (cable.length * cable.length);
   const double weight = kWeights * kGravity * cable.mass_per_length * cable.length;
   const double force = bending + weight + TautForce(cable);
-  const double modulus = 64 * EI / (kPi * std::pow(cable.diameter, 4));
+  const double modulus = cable.flat() ? 12 / (cable.width * cable.height) *
+                                            std::max(cable.EI1 / std::pow(cable.height, 2),
+                                                     cable.EI2 / std::pow(cable.width, 2))
+                                      : 64 * EI / (kPi * std::pow(cable.diameter, 4));
   const double needed = std::min(force / (kDeepestShareOfRadius * radius), modulus * radius);
   const double floor = ContactLaw().stiffness;
   return needed <= floor ? floor : std::min(kStiffest, RoundUpToTwoDigits(needed));

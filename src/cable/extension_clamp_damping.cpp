@@ -38,6 +38,9 @@ ExtensionLaw ClampDampingLaw() {
   law.shape = "clamps {a: {bending: ..., torsion: ...}, b: ...}";
   law.fields = ClampFields(NumberSpec::AtLeast(0, "N m s/rad"), "N m s/rad");
   law.check = Check;
+  // Alone, it acts at a disc only.
+  for (ExtensionField& field : law.fields)
+    if (field.path == kDiscDashpot) field.neutral = 0.0;
   law.enter = Enter;
   return law;
 }

@@ -2,8 +2,8 @@
 //
 // A new one is a file extension_some_name.cpp with a function SomeNameLaw(), which tells its keys
 // and what it does to the rod; its test; and its paragraph in config/cables/template.yaml. The
-// build finds it. Reading, writing, naming its numbers in `uncertain` and reporting mistakes follow
-// from the keys.
+// build finds it. Reading, writing, its numbers in the registry of parameters, and reporting
+// mistakes follow from the keys.
 #pragma once
 
 #include <optional>
@@ -30,12 +30,15 @@ struct ExtensionField {
   std::optional<double> otherwise =
       std::nullopt;   ///< where it is left out; nothing: then it is absent
   bool pair = false;  ///< one key for both directions (EI) or two (EI1, EI2)
+  /// Where the whole entry has no effect; nothing: nowhere, or it takes other numbers too.
+  std::optional<double> neutral = std::nullopt;
 };
 
 struct ExtensionLaw {
   std::string name;
-  std::string shape;  ///< what is said to be expected of an entry (of a list's item)
-  bool list = false;  ///< one or more of the same
+  std::string shape;       ///< what is said to be expected of an entry (of a list's item)
+  bool list = false;       ///< one or more of the same
+  bool of_record = false;  ///< acts over a record's time: a measurement set only
   std::vector<ExtensionField> fields;
   /// Reports what does not go with the rest of the cable; may be null.
   void (*check)(const ExtensionKey& key, const CableKeys& cable, Problems* problems) = nullptr;
@@ -46,5 +49,9 @@ struct ExtensionLaw {
 
 /// Every one that there is, by name. They are read, written and entered in this order.
 const std::vector<ExtensionLaw>& ExtensionLaws();
+/// @throws std::invalid_argument for an extension that there is not
+const ExtensionLaw& LawOf(const CableExtension& extension);
+/// The paths of a field's numbers: two of a pair.
+std::vector<std::string> NumberPaths(const ExtensionField& field);
 
 }  // namespace cosserat_cable

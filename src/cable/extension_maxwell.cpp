@@ -28,9 +28,9 @@ ExtensionLaw MaxwellLaw() {
   law.shape = "a branch {tau: ..., EI: ...}";
   law.list = true;
   law.fields = {{"tau", "s", RelaxationTimeSpec()},
-                {"EI", "N m^2", BranchBendingStiffnessSpec(), Need::kAny, 0.0, true},
-                {"GJ", "N m^2", BranchBendingStiffnessSpec(), Need::kAny, 0.0},
-                {"EA", "N", BranchAxialStiffnessSpec(), Need::kAny, 0.0}};
+                {"EI", "N m^2", BranchBendingStiffnessSpec(), Need::kAny, 0.0, true, 0.0},
+                {"GJ", "N m^2", BranchBendingStiffnessSpec(), Need::kAny, 0.0, false, 0.0},
+                {"EA", "N", BranchAxialStiffnessSpec(), Need::kAny, 0.0, false, 0.0}};
   law.enter = Enter;
   return law;
 }

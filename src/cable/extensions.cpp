@@ -4,7 +4,6 @@
 #include <memory>
 #include <stdexcept>
 
-#include "cosserat_cable/cable/extension_number.h"
 #include "cosserat_cable/input/number_text.h"
 #include "extension_law.h"
 #include "read_pair.h"
@@ -12,35 +11,11 @@
 namespace cosserat_cable {
 namespace {
 
-const ExtensionLaw& LawOf(const CableExtension& extension) {
-  for (const ExtensionLaw& law : ExtensionLaws())
-    if (law.name == extension.name) return law;
-  throw std::invalid_argument("a cable cannot have the extension '" + extension.name + "'");
-}
-
 // "a" and "bending" of "a.bending"; "" and "tau" of "tau".
 std::pair<std::string, std::string> SplitPath(const std::string& path) {
   const std::size_t dot = path.find('.');
   if (dot == std::string::npos) return {"", path};
   return {path.substr(0, dot), path.substr(dot + 1)};
-}
-
-// The paths of a field's numbers.
-std::vector<std::string> NumberPaths(const ExtensionField& field) {
-  if (!field.pair) return {field.path};
-  return {field.path + "1", field.path + "2"};
-}
-
-// The paths by which its numbers may be named: a pair's key for both directions, too.
-std::vector<std::string> PathsByName(const ExtensionField& field) {
-  std::vector<std::string> paths = NumberPaths(field);
-  if (field.pair) paths.insert(paths.begin(), field.path);
-  return paths;
-}
-
-// What the names of an entry's, or of an item's, numbers begin with.
-std::string PlaceOf(const ExtensionLaw& law, std::size_t part) {
-  return ExtensionNumberPrefix() + law.name + (law.list ? "[" + std::to_string(part) + "]." : ".");
 }
 
 // One entry, or one item of a list: a map with the fields of its law.
@@ -158,6 +133,17 @@ std::string WritePart(const ExtensionLaw& law, const std::map<std::string, doubl
 
 }  // namespace
 
+const ExtensionLaw& LawOf(const CableExtension& extension) {
+  for (const ExtensionLaw& law : ExtensionLaws())
+    if (law.name == extension.name) return law;
+  throw std::invalid_argument("a cable cannot have the extension '" + extension.name + "'");
+}
+
+std::vector<std::string> NumberPaths(const ExtensionField& field) {
+  if (!field.pair) return {field.path};
+  return {field.path + "1", field.path + "2"};
+}
+
 CableKey<std::vector<ExtensionKey>> ReadExtensions(const YamlValue& value) {
   if (!value.given()) return {};
   std::vector<ExtensionKey> keys;
@@ -176,67 +162,22 @@ void CheckExtensions(const CableKeys& cable, Problems* problems) {
     if (const ExtensionLaw& law = LawOf(key.extension); law.check) law.check(key, cable, problems);
 }
 
+void RefuseExtensionsOfRecords(const CableKeys& cable, Problems* problems) {
+  if (!cable.extensions.value) return;
+  for (const ExtensionKey& key : *cable.extensions.value)
+    if (LawOf(key.extension).of_record)
+      problems->Add(key.mark, "got " + key.extension.name +
+                                  ", a change over the time of a record, of a vehicle's cable, "
+                                  "expected it in the `cable` of a measurement set "
+                                  "(measurement.yaml)");
+}
+
 std::string WriteExtension(const CableExtension& extension) {
   const ExtensionLaw& law = LawOf(extension);
   std::string text;
   for (const auto& numbers : extension.parts)
     text += (text.empty() ? "" : ", ") + WritePart(law, numbers);
   return law.list ? "[" + text + "]" : text;
-}
-
-std::vector<std::string> ExtensionNumberNames(const std::vector<CableExtension>& extensions) {
-  std::vector<std::string> names;
-  for (const CableExtension& extension : extensions) {
-    const ExtensionLaw& law = LawOf(extension);
-    for (std::size_t i = 0; i < extension.parts.size(); ++i)
-      for (const ExtensionField& field : law.fields) {
-        if (!extension.parts[i].count(NumberPaths(field).front())) continue;
-        for (const std::string& path : PathsByName(field)) names.push_back(PlaceOf(law, i) + path);
-      }
-  }
-  return names;
-}
-
-std::optional<ExtensionNumber> FindExtensionNumber(const std::string& name,
-                                                   std::vector<ExtensionKey>* extensions) {
-  for (ExtensionKey& key : *extensions) {
-    const ExtensionLaw& law = LawOf(key.extension);
-    for (std::size_t i = 0; i < key.extension.parts.size(); ++i)
-      for (const ExtensionField& field : law.fields)
-        for (const std::string& path : PathsByName(field)) {
-          if (name != PlaceOf(law, i) + path) continue;
-          std::map<std::string, double>& numbers = key.extension.parts[i];
-          ExtensionNumber found;
-          found.unit = field.unit;
-          const bool both = field.pair && path == field.path;
-          for (const std::string& one :
-               both ? NumberPaths(field) : std::vector<std::string>{path}) {
-            const auto number = numbers.find(one);
-            if (number == numbers.end()) return std::nullopt;
-            found.values.push_back(&number->second);
-          }
-          return found;
-        }
-  }
-  return std::nullopt;
-}
-
-std::string ExtensionNumberUnit(const std::string& name) {
-  for (const ExtensionLaw& law : ExtensionLaws()) {
-    const std::string begin = ExtensionNumberPrefix() + law.name;
-    if (name.rfind(begin + (law.list ? "[" : "."), 0) != 0) continue;
-    const std::size_t place = law.list ? name.find("].") : begin.size() - 1;
-    if (place == std::string::npos) continue;
-    for (const ExtensionField& field : law.fields)
-      for (const std::string& path : PathsByName(field))
-        if (name.substr(place + 2) == path) return field.unit;
-  }
-  return "";
-}
-
-const std::string& ExtensionNumberPrefix() {
-  static const std::string prefix = "extensions.";
-  return prefix;
 }
 
 void EnterExtensions(const CableModel& cable, rod::RodModel* rod) {

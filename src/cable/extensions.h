@@ -2,10 +2,12 @@
 // rod.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cosserat_cable/cable/cable_keys.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/rod/rod.h"
 
 namespace cosserat_cable {
@@ -16,14 +18,24 @@ CableKey<std::vector<ExtensionKey>> ReadExtensions(const YamlValue& value);
 /// Reports extensions that do not go with the rest of the cable.
 void CheckExtensions(const CableKeys& cable, Problems* problems);
 
+/// Reports extensions that act over the time of a record, which a vehicle's cable does not have.
+void RefuseExtensionsOfRecords(const CableKeys& cable, Problems* problems);
+
 /// The entry as YAML on one line, without its name.
 std::string WriteExtension(const CableExtension& extension);
 
-/// The extensions' numbers as `uncertain` names them: "extensions.maxwell[0].EI". A quantity with
-/// two directions has three names.
-std::vector<std::string> ExtensionNumberNames(const std::vector<CableExtension>& extensions);
-/// What these names begin with.
-const std::string& ExtensionNumberPrefix();
+/// What the paths of extensions' parameters begin with: "extensions.".
+const std::string& ExtensionPrefix();
+/// The paths of the numbers that these extensions have: "extensions.maxwell[0].EI". A quantity with
+/// two directions has three.
+std::vector<std::string> ExtensionPaths(const std::vector<CableExtension>& extensions);
+/// See FindParameter.
+std::optional<Parameter> FindExtensionParameter(const std::string& path);
+/// The number of this path, or those of both directions, where it is of both; none where the keys
+/// have no such number.
+std::vector<double*> ExtensionNumbers(const std::string& path, CableKeys* keys);
+/// The same; what is not there is made, see SetParameter.
+std::vector<double*> MakeExtensionNumbers(const std::string& path, CableKeys* keys);
 
 /// @throws std::invalid_argument for an extension that there is not
 void EnterExtensions(const CableModel& cable, rod::RodModel* rod);

@@ -24,6 +24,7 @@ CableKey<std::array<T, 2>> ReadPair(MapReader* map, const std::string& key, cons
     }
   } else if (one.given()) {
     pair.mark = one.mark();
+    if (second.given()) pair.second = second.mark();
     if (!first.given() || !second.given()) {
       one.Report("got this alone, expected " + key + "1 and " + key + "2, or " + key);
     }

@@ -6,8 +6,8 @@
 #include <optional>
 #include <sstream>
 
-#include "cable_number.h"
 #include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/record_csv.h"
 
@@ -73,7 +73,6 @@ std::optional<std::string> PlaceInLine(const std::string& key, const ParameterEs
   if (!OfCable(one) || key.empty()) return std::nullopt;
   const std::string& name = one.unknown.name;
   if (key == name || key == name + "1" || key == name + "2") return "";
-  if (name == kEndDamping && key == "clamp_damping") return name;
   const std::string law = "extensions." + key;
   if (name.rfind(law + "[", 0) == 0 || name.rfind(law + ".", 0) == 0)
     return name.substr(std::string("extensions.").size());
@@ -226,7 +225,7 @@ std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& est
         key.back() == '1' || key.back() == '2' ? key.substr(0, key.size() - 1) : key;
     const bool derived = base == "EA" || base == "GA" || base == "eta_EA" || base == "eta_GA";
     return key == "name" || key == "apex" || key == "contact" ||
-           (derived && !Gives(base, estimation.cable));
+           (derived && !GivesParameter(base, estimation.cable));
   };
   std::istringstream lines(WriteCableFile(file));
   std::string text, line;
@@ -263,21 +262,25 @@ std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit) {
 
 std::string AnswerTable(const Estimation& estimation) {
   std::ostringstream out;
-  char line[256];
-  std::snprintf(line, sizeof line, "%-22s %13s %13s %13s  %-9s\n", "parameter", "value",
+  char line[320];
+  std::size_t longest = 22;
+  for (const ParameterEstimate& one : estimation.parameters)
+    if (OfCable(one)) longest = std::max(longest, one.unknown.name.size());
+  const int width = static_cast<int>(longest);
+  std::snprintf(line, sizeof line, "%-*s %13s %13s %13s  %-9s\n", width, "parameter", "value",
                 "95 % from", "to", "unit");
   out << line;
   for (const ParameterEstimate& one : estimation.parameters) {
     if (!OfCable(one)) continue;
     const int digits = DigitsFor(one.value, one.sd);
     if (one.determined)
-      std::snprintf(line, sizeof line, "%-22s %13s %13s %13s  %-9s\n", one.unknown.name.c_str(),
-                    FormatRounded(one.value, digits).c_str(),
+      std::snprintf(line, sizeof line, "%-*s %13s %13s %13s  %-9s\n", width,
+                    one.unknown.name.c_str(), FormatRounded(one.value, digits).c_str(),
                     FormatRounded(one.low, digits).c_str(), FormatRounded(one.high, digits).c_str(),
                     one.unknown.unit.c_str());
     else
-      std::snprintf(line, sizeof line, "%-22s %13s  %s\n", one.unknown.name.c_str(), "undetermined",
-                    one.reason.substr(0, 200).c_str());
+      std::snprintf(line, sizeof line, "%-*s %13s  %s\n", width, one.unknown.name.c_str(),
+                    "undetermined", one.reason.substr(0, 200).c_str());
     out << line;
   }
   for (const ChannelSlip& slip : estimation.slips)

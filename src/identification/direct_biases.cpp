@@ -39,7 +39,8 @@ void Add(DirectBias bias, DirectRingDown* ring) {
 Specimen::Specimen(const MeasurementSet& set, const Experiment& experiment) {
   const CableKeys& own = experiment.specimen;
   length = Either(own.length, set.cable.length);
-  diameter = Either(own.diameter, set.cable.diameter);
+  shape = ShapeOf(own);
+  if (!shape) shape = ShapeOf(set.cable);
   mass_per_length = Either(own.mass_per_length, set.cable.mass_per_length);
   GJ = Either(own.GJ, set.cable.GJ);
   EA = Either(own.EA, set.cable.EA);
@@ -103,10 +104,10 @@ void AddBendingBiases(const Specimen& specimen, const Experiment& experiment,
 void AddTorsionBiases(const Specimen& specimen, const Experiment& experiment,
                       DirectRingDown* ring) {
   const double L = *specimen.length;
-  if (!specimen.diameter) return;
-  const double d = *specimen.diameter;
+  if (!specimen.shape) return;
+  const double polar = specimen.shape->polar();
   if (specimen.mass_per_length) {
-    const double own = *specimen.mass_per_length * d * d / 8 * L / 3;
+    const double own = *specimen.mass_per_length * polar * L / 3;
     const double relative = 1 / (1 + own / ring->inertia) - 1;
     Add({"cable_inertia", "GJ", relative, false,
          "the cable turns with the disc, which (12) and (13) leave out: [GJ] and the damping " +
@@ -114,7 +115,7 @@ void AddTorsionBiases(const Specimen& specimen, const Experiment& experiment,
         ring);
   }
   const double tension = experiment.b.disc.mass * experiment.gravity_W.dot(Tangent(experiment));
-  const double relative = tension * d * d / (8 * ring->stiffness);
+  const double relative = tension * polar / ring->stiffness;
   Add({"disc_weight", "GJ", relative, false,
        "the disc's weight pulls twisted fibres straight, in a solid section [GJ] " +
            Percent(relative)},

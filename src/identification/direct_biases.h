@@ -13,7 +13,8 @@ namespace cosserat_cable {
 struct Specimen {
   Specimen(const MeasurementSet& set, const Experiment& experiment);
 
-  std::optional<double> length, diameter, mass_per_length, GJ, EA;
+  std::optional<SectionShape> shape;
+  std::optional<double> length, mass_per_length, GJ, EA;
   std::optional<std::array<double, 2>> EI, GA;
   std::vector<LumpedMass> masses;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/identification/ring_down.h"
 #include "cosserat_cable/input/number_text.h"
 #include "direct_biases.h"
@@ -257,7 +258,7 @@ void EvaluateTorsionalDamping(const std::vector<DirectRingDown>& rings, DirectEv
   const WeightedLine line = FitWeightedLine(X, y / unit, variance / (unit * unit));
   if (!one_length) {
     out->values["eta_GJ"] = ValueOf(line, 0, unit);
-    out->values["D_E"] = ValueOf(line, 1, unit);
+    out->values[kEndDamping] = ValueOf(line, 1, unit);
     out->eta_GJ_D_E_correlation = line.covariance(0, 1) / (line.sd(0) * line.sd(1));
     return;
   }
@@ -268,29 +269,29 @@ void EvaluateTorsionalDamping(const std::vector<DirectRingDown>& rings, DirectEv
       " m long: only eta_GJ/L + D_E = " + FormatRounded(out->combination->value) + " +- " +
       FormatRounded(out->combination->sd, 2) + " N m s is determined";
   out->undetermined["eta_GJ"] = why;
-  out->undetermined["D_E"] = why;
+  out->undetermined[kEndDamping] = why;
 }
 
 // Eq. (10).
 void AddCritical(const MeasurementSet& set, DirectEvaluation* out) {
   const Specimen s(set, Experiment());
-  if (!s.length || !s.mass_per_length || !s.diameter) return;
+  if (!s.length || !s.mass_per_length || !s.shape) return;
   const auto found = [&](const char* name) -> std::optional<double> {
     const auto value = out->values.find(name);
     if (value == out->values.end()) return std::nullopt;
     return value->second.value;
   };
-  const double d = *s.diameter, rhoA = *s.mass_per_length;
-  const double rhoI = rhoA * d * d / 16, slowest = 4 * *s.length / kPi;
+  const double rhoA = *s.mass_per_length, slowest = 4 * *s.length / kPi;
+  const double gyration = std::min(s.shape->gyration1(), s.shape->gyration2());
   std::optional<double> EI = found("EI"), GJ = found("GJ"), EA = s.EA;
   if (!EI && s.EI) EI = std::min((*s.EI)[0], (*s.EI)[1]);
   if (!GJ) GJ = s.GJ;
-  if (!EA && EI) EA = 16 * *EI / (d * d);
-  if (GJ) out->critical["eta_GJ"] = slowest * std::sqrt(2 * rhoI * *GJ);
+  if (!EA && EI) EA = *EI / gyration;
+  if (GJ) out->critical["eta_GJ"] = slowest * std::sqrt(rhoA * s.shape->polar() * *GJ);
   if (EA) out->critical["eta_EA"] = slowest * std::sqrt(rhoA * *EA);
   const std::optional<double> GA = s.GA ? std::optional<double>(std::min((*s.GA)[0], (*s.GA)[1]))
                                         : (EA ? std::optional<double>(*EA / 3) : std::nullopt);
-  if (GA) out->critical["eta_GA"] = 2 * std::sqrt(rhoI * *GA);
+  if (GA) out->critical["eta_GA"] = 2 * std::sqrt(rhoA * gyration * *GA);
 }
 
 }  // namespace
@@ -324,7 +325,7 @@ DirectEvaluation EvaluateDirectly(const MeasurementSet& set) {
     out.values["GJ"] = Mean(torsion, &DirectRingDown::stiffness, &DirectRingDown::stiffness_sd);
     EvaluateTorsionalDamping(torsion, &out);
   } else if (!out.torsion.empty()) {
-    out.undetermined["GJ"] = out.undetermined["eta_GJ"] = out.undetermined["D_E"] =
+    out.undetermined["GJ"] = out.undetermined["eta_GJ"] = out.undetermined[kEndDamping] =
         "no torsional pendulum could be evaluated";
   }
   AddCritical(set, &out);

@@ -1,3 +1,4 @@
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/identification/direct_evaluation.h"
 
 namespace cosserat_cable {
@@ -53,7 +54,7 @@ json ToJson(const DirectEvaluation& evaluation) {
               {"critical", evaluation.critical},
               {"messages", evaluation.messages}};
   for (const auto& [name, value] : evaluation.values) out["values"][name] = ValueJson(value);
-  if (evaluation.values.count("D_E") > 0) {
+  if (evaluation.values.count(kEndDamping) > 0) {
     out["eta_GJ_D_E_correlation"] = evaluation.eta_GJ_D_E_correlation;
   }
   if (evaluation.combination) {

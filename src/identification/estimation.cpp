@@ -7,8 +7,8 @@
 #include <cmath>
 #include <memory>
 
-#include "cable_number.h"
 #include "channel_slips.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/input/number_text.h"
 #include "damage.h"
 #include "estimation_remarks.h"

@@ -1,7 +1,7 @@
 #include "estimation_remarks.h"
 
-#include "cable_number.h"
 #include "channel_slips.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/input/number_text.h"
 #include "noise_level.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cable_number.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/input/number_text.h"
 
 namespace cosserat_cable {

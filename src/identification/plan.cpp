@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cable_number.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "fit.h"
 #include "information.h"
 
@@ -21,7 +21,7 @@ constexpr double kHopeless = 1e3;
 Experiment Scaled(const Experiment& like, double from, double to, double inertia_factor) {
   Experiment experiment = like;
   const double ratio = to / from;
-  SetNumber("length", to, &experiment.specimen);
+  SetParameter("length", to, &experiment.specimen);
   for (Channel& channel : experiment.channels) channel.s *= ratio;
   experiment.start.held.s *= ratio;
   const Eigen::Vector3d a = experiment.a.pose.p;

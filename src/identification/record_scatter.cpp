@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "cable_number.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "information.h"
 
 namespace cosserat_cable {
@@ -19,8 +19,8 @@ using Eigen::VectorXd;
 constexpr double kByChance = 2.878;
 // Eigenvalues, in parts of the largest, that are none.
 constexpr double kNothing = 1e-9;
-constexpr const char* kMayScatter[] = {"EI",      "EI1",     "EI2",    "GJ", "eta_EI",
-                                       "eta_EI1", "eta_EI2", "eta_GJ", "D_E"};
+constexpr const char* kMayScatter[] = {"EI",      "EI1",     "EI2",    "GJ",       "eta_EI",
+                                       "eta_EI1", "eta_EI2", "eta_GJ", kEndDamping};
 
 /// Of one record: information on all unknowns, and derivative of half the sum of squares, at the
 /// unknowns' means; both as if the noise were white.

@@ -3,38 +3,46 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cable_number.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/measurement/fault_check.h"
 #include "start_shapes.h"
 
 namespace cosserat_cable {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-// Where nothing is known of a damping, a ratio of this size in the first mode is where the search
-// begins.
-constexpr double kTypicalDamping = 0.05;
 // No cable's damping is as far from the first guess as this factor, and no stiffness.
 constexpr double kFarthest = 1e3, kFarthestStiffness = 30;
-constexpr double kFirstClampedFree = 1.87510407;  // root of 1 + cos cosh = 0
 
 bool HasDisc(const Experiment& experiment) {
   return experiment.b.kind == EndCondition::Kind::kDisc;
 }
 
-/// Angular frequency [rad/s] of the slowest bending, roughly: of a clamped-free cable.
-double BendingFrequency(const CableKeys& keys) {
-  const double L = keys.length.value.value_or(0.2), EI = NumberOf("EI", keys).value_or(0.01);
-  return std::pow(kFirstClampedFree / L, 2) *
-         std::sqrt(EI / keys.mass_per_length.value.value_or(0.1));
-}
-
 double TorsionFrequency(const CableKeys& keys, const Experiment& experiment) {
-  const double L = keys.length.value.value_or(0.2), GJ = NumberOf("GJ", keys).value_or(0.01);
+  const double L = keys.length.value.value_or(0.2), GJ = GetParameter("GJ", keys).value_or(0.01);
   const double rhoJ = keys.mass_per_length.value.value_or(0.1) *
-                      std::pow(keys.diameter.value.value_or(0.01), 2) / 8;
+                      ShapeOf(keys).value_or(SectionShape{0.01, 0, 0}).polar();
   if (HasDisc(experiment)) return std::sqrt(GJ / (L * (experiment.b.disc.inertia + rhoJ * L / 3)));
   return kPi / (2 * L) * std::sqrt(GJ / rhoJ);
+}
+
+bool IsFault(const std::string& name) { return name.rfind("faults.", 0) == 0; }
+bool IsOfEntry(const std::string& name) { return name.find('.') != std::string::npos; }
+
+/// Where nothing is known of a parameter: what makes a marked difference to this experiment; 0
+/// where the key has a value or a default in any case, or the experiment cannot show it.
+double TypicalSizeIn(const std::string& name, const CableKeys& keys, const Experiment& experiment) {
+  if (name.rfind("eta_EI", 0) == 0) return TypicalSize(name, keys);
+  if (name == "eta_GJ")
+    return 2 * kTypicalDamping * GetParameter("GJ", keys).value_or(0.01) /
+           TorsionFrequency(keys, experiment);
+  if (name == kEndDamping) {
+    if (!HasDisc(experiment)) return 0;
+    return 2 * kTypicalDamping * TorsionFrequency(keys, experiment) * experiment.b.disc.inertia / 2;
+  }
+  if (IsFault(name) && !CanHaveFault(name, experiment)) return 0;
+  return IsOfEntry(name) ? TypicalSize(name, keys) : 0;
 }
 
 }  // namespace
@@ -110,9 +118,9 @@ void Unknowns::AddUnknownDampings(std::vector<std::string>* names) const {
     return std::count(names->begin(), names->end(), name) > 0;
   };
   const auto unknown = [&](const std::string& name) {
-    return IsUnknown(name, set_.cable) ||
+    return IsUnknownParameter(name, set_.cable) ||
            std::any_of(set_.experiments.begin(), set_.experiments.end(),
-                       [&](const Experiment& e) { return IsUnknown(name, e.specimen); });
+                       [&](const Experiment& e) { return IsUnknownParameter(name, e.specimen); });
   };
   for (const std::string name : {"eta_GJ", "eta_EA"})
     if (unknown(name) && !listed(name)) names->push_back(name);
@@ -129,54 +137,63 @@ void Unknowns::AddUnknownDampings(std::vector<std::string>* names) const {
 }
 
 void Unknowns::AddCable(const std::string& name, Problems* problems) {
+  const std::optional<Parameter> parameter = FindParameter(name);
+  if (!parameter) return;  // the set's reader has refused it
   Unknown unknown;
   unknown.name = name;
-  unknown.unit = UnitOf(name);
-  unknown.damping = IsDamping(name);
-  std::optional<double> given = NumberOf(name, set_.cable);
+  unknown.unit = parameter->unit;
+  unknown.damping = parameter->damping;
+  unknown.sign = parameter->sign;
+  std::optional<double> given = GetParameter(name, set_.cable);
   double typical = 0;
   for (std::size_t e = 0; e < set_.experiments.size(); ++e) {
     const Experiment& experiment = set_.experiments[e];
-    const CableKeys& keys = keys_[e];
-    if (name == "disc.inertia") {
+    if (name == kDiscInertia) {
       if (HasDisc(experiment)) given = experiment.b.disc.inertia;
       continue;
     }
-    double size = 0;
-    if (name.rfind("eta_EI", 0) == 0)
-      size = 2 * kTypicalDamping * NumberOf("EI", keys).value_or(0.01) / BendingFrequency(keys);
-    else if (name == "eta_GJ")
-      size = 2 * kTypicalDamping * NumberOf("GJ", keys).value_or(0.01) /
-             TorsionFrequency(keys, experiment);
-    else if (name == kEndDamping && HasDisc(experiment))
-      size =
-          2 * kTypicalDamping * TorsionFrequency(keys, experiment) * experiment.b.disc.inertia / 2;
-    typical = std::max(typical, size);
+    if (IsFault(name) && !given) given = GetParameter(name, experiment.specimen);
+    typical = std::max(typical, TypicalSizeIn(name, keys_[e], experiment));
   }
-  if (!given && typical == 0) {
-    // A default that follows from others: as complete keys would have it.
-    Problems unused;
-    CableKeys filled = set_.cable;
-    for (const char* damping : {"eta_EI", "eta_GJ"})
-      if (!NumberOf(damping, filled)) SetNumber(damping, 0, &filled);
-    const CableModel cable = CompleteCable(filled, set_.cable_mark, &unused);
-    if (name.rfind("EA", 0) == 0) given = cable.EA;
-    if (name.rfind("GA", 0) == 0) given = cable.GA1;
-    if (name.rfind("eta_EA", 0) == 0) given = cable.eta_EA;
-    if (name.rfind("eta_GA", 0) == 0) given = cable.eta_GA1;
-  }
+  if (!given && typical == 0) given = DefaultOf(name);
+  const std::optional<double>& neutral = parameter->neutral;
+  // What is not there starts where it has no effect, unless it can only go one way from there.
+  const bool from_neutral = neutral && std::isfinite(*neutral) &&
+                            (parameter->sign == ParameterSign::kSigned || *neutral != 0);
   unknown.start_known = given.has_value();
-  unknown.start = given.value_or(typical);
-  unknown.scale = std::max(std::abs(unknown.start), unknown.damping ? typical : 0.0);
+  unknown.start = given && std::isfinite(*given) ? *given : from_neutral ? *neutral : typical;
+  unknown.scale = from_neutral ? std::max(std::abs(unknown.start - *neutral), typical)
+                               : std::max(std::abs(unknown.start), unknown.damping ? typical : 0.0);
+  if (parameter->sign != ParameterSign::kPositive && !(unknown.scale > 0)) unknown.scale = typical;
   if (!(unknown.scale > 0)) {
     problems->Add(set_.cable_mark, "got '" + name +
                                        "' as uncertain, but it has no value to start "
                                        "from and no experiment that could show it");
     return;
   }
-  unknown.lower = unknown.damping ? 0.0 : unknown.scale / kFarthestStiffness;
-  unknown.upper = unknown.scale * (unknown.damping ? kFarthest : kFarthestStiffness);
+  const double far = unknown.scale * kFarthest;
+  unknown.upper = std::min(parameter->upper, parameter->sign == ParameterSign::kPositive
+                                                 ? unknown.scale * kFarthestStiffness
+                                                 : far);
+  unknown.lower = std::max(parameter->lower, parameter->sign == ParameterSign::kSigned ? -far
+                                             : parameter->sign == ParameterSign::kPositive
+                                                 ? unknown.scale / kFarthestStiffness
+                                                 : 0.0);
   all_.push_back(unknown);
+}
+
+/// A default that follows from others: as complete keys would have it.
+std::optional<double> Unknowns::DefaultOf(const std::string& name) const {
+  Problems unused;
+  CableKeys filled = set_.cable;
+  for (const char* damping : {"eta_EI", "eta_GJ"})
+    if (!GetParameter(damping, filled)) SetParameter(damping, 0, &filled);
+  const CableModel cable = CompleteCable(filled, set_.cable_mark, &unused);
+  if (name.rfind("EA", 0) == 0) return cable.EA;
+  if (name.rfind("GA", 0) == 0) return cable.GA1;
+  if (name.rfind("eta_EA", 0) == 0) return cable.eta_EA;
+  if (name.rfind("eta_GA", 0) == 0) return cable.eta_GA1;
+  return std::nullopt;
 }
 
 void Unknowns::AddScatter(const ParameterScatter& scatter) {
@@ -229,10 +246,23 @@ bool Unknowns::Concerns(int unknown, int e) const {
   const Unknown& u = all_[unknown];
   if (u.kind != Unknown::Kind::kCable) return u.experiment == e;
   const Experiment& experiment = set_.experiments[e];
-  if (u.name == "disc.inertia" || u.name == kEndDamping)
+  if (u.name == kDiscInertia || u.name == kEndDamping)
     return HasDisc(experiment) && !experiment.quasi_static();
+  if (IsFault(u.name)) return FaultConcerns(u.name, e);
   if (u.damping && experiment.quasi_static()) return false;
-  return !Gives(u.name, experiment.specimen) || IsUnknown(u.name, experiment.specimen);
+  return !GivesParameter(u.name, experiment.specimen) ||
+         IsUnknownParameter(u.name, experiment.specimen);
+}
+
+/// A fault that stands somewhere is one of the experiments that have it; one that stands nowhere,
+/// of all whose faults are not said otherwise.
+bool Unknowns::FaultConcerns(const std::string& name, int e) const {
+  if (!CanHaveFault(name, set_.experiments[e])) return false;
+  if (GivesParameter(name, keys_[e])) return true;
+  const bool stands = std::any_of(keys_.begin(), keys_.end(), [&](const CableKeys& keys) {
+    return GivesParameter(name, keys);
+  });
+  return !stands && !set_.experiments[e].specimen.faults.given();
 }
 
 Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* problems) const {
@@ -247,13 +277,13 @@ Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* 
     if (u.kind == Unknown::Kind::kLength && keys.length.value) *keys.length.value += values[i];
     if (u.kind == Unknown::Kind::kScatter) {
       const Unknown& of = all_[u.index];
-      SetNumber(of.name, std::max(of.lower, values[u.index] + values[i]), &keys);
+      SetParameter(of.name, std::max(of.lower, values[u.index] + values[i]), &keys);
     }
     if (u.kind != Unknown::Kind::kCable) continue;
-    if (u.name == "disc.inertia")
+    if (u.name == kDiscInertia)
       inertia = values[i];
     else
-      SetNumber(u.name, values[i], &keys);
+      SetParameter(u.name, values[i], &keys);
   }
   if (experiment.quasi_static()) keys = WithoutUnknownDamping(keys);
   Specimen specimen = cosserat_cable::MakeSpecimen(keys, experiment, problems);
@@ -291,10 +321,33 @@ double Unknowns::OffsetOf(int experiment, int channel, const Eigen::VectorXd& va
 
 CableKeys Unknowns::FilledKeys(const Eigen::VectorXd& values) const {
   CableKeys keys = set_.cable;
-  for (int i = 0; i < size(); ++i)
-    if (all_[i].kind == Unknown::Kind::kCable && all_[i].name != "disc.inertia")
-      SetNumber(all_[i].name, values[i], &keys);
+  for (int i = 0; i < size(); ++i) {
+    const Unknown& u = all_[i];
+    if (u.kind != Unknown::Kind::kCable || u.name == kDiscInertia) continue;
+    const bool of_experiments = IsFault(u.name) && !GivesParameter(u.name, keys) &&
+                                std::any_of(keys_.begin(), keys_.end(), [&](const CableKeys& of) {
+                                  return GivesParameter(u.name, of);
+                                });
+    if (!of_experiments) SetParameter(u.name, values[i], &keys);
+  }
   return keys;
+}
+
+MeasurementSet Unknowns::FilledSet(const Eigen::VectorXd& values) const {
+  MeasurementSet set = set_;
+  set.cable = FilledKeys(values);
+  for (int i = 0; i < size(); ++i) {
+    const Unknown& u = all_[i];
+    if (u.kind != Unknown::Kind::kCable) continue;
+    for (std::size_t e = 0; e < set.experiments.size(); ++e) {
+      Experiment& experiment = set.experiments[e];
+      if (!Concerns(i, static_cast<int>(e))) continue;
+      if (u.name == kDiscInertia) experiment.b.disc.inertia = values[i];
+      if (IsFault(u.name) && GivesParameter(u.name, experiment.specimen))
+        SetParameter(u.name, values[i], &experiment.specimen);
+    }
+  }
+  return set;
 }
 
 int Unknowns::Find(const std::string& name) const {

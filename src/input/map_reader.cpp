@@ -72,6 +72,12 @@ YamlValue MapReader::Optional(const std::string& key) {
   return Absent(key, YamlValue::State::kAbsent);
 }
 
+void MapReader::Refuse(const std::string& key, const std::string& message) {
+  const bool given = std::any_of(entries_.begin(), entries_.end(),
+                                 [&](const auto& entry) { return entry.first == key; });
+  if (given) Optional(key).Report(message);
+}
+
 std::vector<std::pair<std::string, YamlValue>> MapReader::Entries() {
   for (const auto& entry : entries_) known_.push_back(entry.first);
   return entries_;

@@ -8,7 +8,9 @@
 
 namespace cosserat_cable {
 
-ChannelProbe::ChannelProbe(const std::vector<Channel>& channels) : channels_(channels) {}
+ChannelProbe::ChannelProbe(const std::vector<Channel>& channels,
+                           const std::vector<ChannelSensor>& sensors)
+    : channels_(channels), sensors_(sensors) {}
 
 int ChannelProbe::DerivativeOrder(Quantity quantity) {
   switch (quantity) {
@@ -48,6 +50,8 @@ void ChannelProbe::Sample(const Rig& rig, Eigen::Ref<Eigen::VectorXd> values) {
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     const Channel& channel = channels_[c];
     const auto component = [&](const Eigen::Vector3d& v_W) {
+      if (const auto& direction = sensors_[c].direction)
+        return direction->dot(channel.in_frame_a ? a.q.conjugate() * v_W : v_W);
       return channel.in_frame_a ? (a.q.conjugate() * v_W)[channel.axis] : v_W[channel.axis];
     };
     switch (channel.quantity) {

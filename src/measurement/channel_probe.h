@@ -6,6 +6,7 @@
 
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "rig.h"
+#include "sensor.h"
 
 namespace cosserat_cable {
 
@@ -13,7 +14,8 @@ namespace cosserat_cable {
 /// velocity and acceleration, the angle for its rate; in clamp a's frame where a channel says so.
 class ChannelProbe {
  public:
-  explicit ChannelProbe(const std::vector<Channel>& channels);
+  /// `sensors`: by channel, along which directions they show vectors.
+  ChannelProbe(const std::vector<Channel>& channels, const std::vector<ChannelSensor>& sensors);
 
   void Sample(const Rig& rig, Eigen::Ref<Eigen::VectorXd> values);
   /// Of the channel: 0, 1 or 2, the derivative of the sampled quantity that it shows.
@@ -27,6 +29,7 @@ class ChannelProbe {
   double Angle(const Rig& rig, double s);
 
   const std::vector<Channel>& channels_;
+  std::vector<ChannelSensor> sensors_;
   std::vector<double>
       twist_;  // scratch: rotation about the tangent from clamp a to each node [rad]
 };

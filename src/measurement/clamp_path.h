@@ -1,8 +1,10 @@
 // Where an experiment's clamps are at a time, or at a step of a quasi-static one.
 #pragma once
 
-#include <memory>
+#include <optional>
+#include <vector>
 
+#include "base_motion.h"
 #include "cosserat_cable/math/pose_curve.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 
@@ -11,7 +13,8 @@ namespace cosserat_cable {
 /// One clamp. A free end has none: its pose is the identity and means nothing.
 class ClampPath {
  public:
-  explicit ClampPath(const EndCondition& end);
+  /// `fault`: what the clamp does otherwise than the file or pose says.
+  ClampPath(const EndCondition& end, const std::optional<ClampMotionFault>& fault);
 
   bool moves() const { return moving_; }
   /// At a time [s]: C2 between the samples, at rest before the first and after the last.
@@ -24,6 +27,9 @@ class ClampPath {
   Pose fixed_;
   std::vector<Pose> rows_;
   PoseCurve curve_;
+  double shift_ = 0;  // advance of the motion [s]
+  std::optional<Eigen::Quaterniond> tilt_;
+  std::optional<BracketPath> bracket_;
 };
 
 }  // namespace cosserat_cable

@@ -5,6 +5,7 @@
 #include "channel_reader.h"
 #include "cosserat_cable/input/map_reader.h"
 #include "end_reader.h"
+#include "fault_reader.h"
 #include "load_file.h"
 #include "specimen_check.h"
 #include "start_reader.h"
@@ -122,12 +123,14 @@ Experiment ReadExperiment(const YamlValue& value, const MeasurementSet& set, Pro
   const YamlValue b = map.Required("b");
   const YamlValue start = map.Required("start");
   const YamlValue load = map.Optional("load");
+  const YamlValue faults = map.Optional("faults");
   const YamlValue record = map.Required("record");
   const YamlValue channels = map.Required("channels");
   if (!map.ok()) return experiment;
 
   if (kind.given()) experiment.kind = kind.Text("a label").value_or("");
   experiment.specimen = ReadSpecimen(specimen, problems);
+  experiment.specimen.faults = ReadFaults(faults);
   CableKeys cable = experiment.specimen;
   cable.FillFrom(set.cable);
   CheckSpecimen(cable, set.cable_mark, problems);

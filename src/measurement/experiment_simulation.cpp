@@ -7,7 +7,10 @@
 #include "channel_probe.h"
 #include "cosserat_cable/rod/modes.h"
 #include "cosserat_cable/rod/rod_batch.h"
+#include "low_pass.h"
+#include "record_clock.h"
 #include "rig.h"
+#include "sensor.h"
 #include "trace.h"
 
 namespace cosserat_cable {
@@ -29,10 +32,13 @@ int SamplesUntil(const std::vector<double>& t, double until) {
   return static_cast<int>(std::upper_bound(t.begin(), t.end(), until) - t.begin());
 }
 
-/// One of several rigs that are stepped together.
+/// One of several rigs that are stepped together, from the record's times to what its sensors show.
 struct Run {
   std::unique_ptr<Rig> rig;
   SimulatedRecord* result;
+  std::vector<double> times;  ///< of the record's samples, on the motion's clock [s]
+  std::vector<ChannelSensor> sensors;
+  int steps = 0;  ///< that its samples need, and the start
 };
 
 /// Takes the step from `t` by `dt` alone, in ever smaller parts.
@@ -60,10 +66,11 @@ class Side {
     if (rods.size() > 1) batch_ = std::make_unique<rod::RodBatch>(rods);
   }
 
-  void Step(double t, double dt) {
+  /// The step `number`, or a part of it, of those that need it.
+  void Step(int number, double t, double dt) {
     for (std::size_t k = 0; k < runs_.size(); ++k) {
       drives_[k] = {};
-      if (!runs_[k].result->ok) continue;
+      if (!Needs(runs_[k], number)) continue;
       Rig& rig = *runs_[k].rig;
       rig.MoveTo(t + dt);
       drives_[k] = {&rig.clamp_a(), &rig.clamp_b(), rig.load()};
@@ -87,9 +94,12 @@ class Side {
       run.result->message = why;
     }
   }
-  bool AnyRunning() const {
-    return std::any_of(runs_.begin(), runs_.end(), [](const Run& run) { return run.result->ok; });
+  bool AnyNeeds(int step) const {
+    return std::any_of(runs_.begin(), runs_.end(),
+                       [&](const Run& run) { return Needs(run, step); });
   }
+  /// Whether the run is to be sampled after a step; the start is step 0.
+  static bool Needs(const Run& run, int step) { return run.result->ok && step < run.steps; }
 
  private:
   static void Retry(double t, double dt, Run* run) {
@@ -107,67 +117,97 @@ class Side {
 
 bool Stopped(const SimulationOptions& options) { return options.stop && options.stop(); }
 
-void SimulateMotion(const Experiment& experiment, int samples, const SimulationOptions& options,
-                    std::vector<Run> runs) {
+/// What the channel's sensor shows of its trace at the samples' times.
+Eigen::VectorXd Shown(const Experiment& experiment, int channel, const Run& run, Trace* trace) {
+  const Channel& of = experiment.channels[static_cast<std::size_t>(channel)];
+  const ChannelSensor& sensor = run.sensors[static_cast<std::size_t>(channel)];
+  if (ChannelProbe::Winds(of.quantity)) trace->Unwrap(channel);
+  const int order = ChannelProbe::DerivativeOrder(of.quantity);
+  const LowPass::Before before = experiment.start.kind == StartCondition::Kind::kUnknown
+                                     ? LowPass::Before::kSwings
+                                 : experiment.a.motion ? LowPass::Before::kGoesSteady
+                                                       : LowPass::Before::kStands;
+  std::optional<LowPass> filtered;
+  for (std::size_t k = 0; k < sensor.low_passes.size(); ++k) {
+    if (filtered)
+      for (int step = 0; step < trace->steps(); ++step)
+        trace->at(step)[channel] = filtered->steps()[static_cast<std::size_t>(step)];
+    filtered.emplace(*trace, channel, sensor.low_passes[k], before);
+  }
+  Eigen::VectorXd shown(static_cast<Eigen::Index>(run.times.size()));
+  for (std::size_t i = 0; i < run.times.size(); ++i) {
+    // Before the start, the rig stands in its start's shape.
+    const double start = trace->start(), t = std::max(run.times[i], start);
+    double& value = shown[static_cast<Eigen::Index>(i)];
+    if (run.times[i] < start && order > 0)
+      value = 0;
+    else
+      value = filtered ? filtered->Evaluate(t, order) : trace->Evaluate(channel, t, order);
+    if (sensor.scale != 1) value *= sensor.scale;
+  }
+  return shown;
+}
+
+void SimulateMotion(const Experiment& experiment, const SimulationOptions& options,
+                    std::vector<Run> all) {
   const double dt = options.dt;
   const int channels = static_cast<int>(experiment.channels.size());
   const double start = experiment.start_time();
-  const std::vector<double>& times = experiment.record.t;
-  const int steps =
-      1 + std::max(1, static_cast<int>(std::ceil((times[samples - 1] - start) / dt - 1e-9)));
-  Side side(std::move(runs));
-  ChannelProbe probe(experiment.channels);
-  std::vector<Trace> traces(side.runs().size(), Trace(start, dt, steps, channels));
+  for (Run& run : all)
+    run.steps =
+        1 + std::max(1, static_cast<int>(std::ceil((run.times.back() - start) / dt - 1e-9)));
+  Side side(std::move(all));
+  const std::vector<Run>& runs = side.runs();
+  std::vector<ChannelProbe> probes;
+  std::vector<Trace> traces;
+  for (const Run& run : runs) {
+    probes.emplace_back(experiment.channels, run.sensors);
+    traces.emplace_back(start, dt, run.steps, channels);
+  }
   const auto sample = [&](int step) {
     for (std::size_t k = 0; k < traces.size(); ++k)
-      if (side.runs()[k].result->ok) probe.Sample(*side.runs()[k].rig, traces[k].at(step));
+      if (Side::Needs(runs[k], step)) probes[k].Sample(*runs[k].rig, traces[k].at(step));
   };
   sample(0);
   double t = start, part = std::ldexp(dt, -kGrading);
-  side.Step(t, part);
-  for (t += part; part < dt; t += part, part *= 2) side.Step(t, part);
-  for (int step = 1; step < steps; ++step) {
-    if (step > 1) side.Step(start + (step - 1) * dt, dt);
+  side.Step(1, t, part);
+  for (t += part; part < dt; t += part, part *= 2) side.Step(1, t, part);
+  for (int step = 1; side.AnyNeeds(step); ++step) {
+    if (step > 1) side.Step(step, start + (step - 1) * dt, dt);
     if (step % kStepsUnasked == 0 && Stopped(options)) side.Fail(kStopped);
-    if (!side.AnyRunning()) break;
     sample(step);
   }
   for (std::size_t k = 0; k < traces.size(); ++k) {
-    SimulatedRecord& result = *side.runs()[k].result;
+    SimulatedRecord& result = *runs[k].result;
     if (!result.ok) continue;
-    result.values.resize(samples, channels);
-    for (int c = 0; c < channels; ++c) {
-      const Quantity quantity = experiment.channels[c].quantity;
-      if (ChannelProbe::Winds(quantity)) traces[k].Unwrap(c);
-      const int order = ChannelProbe::DerivativeOrder(quantity);
-      for (int i = 0; i < samples; ++i) {
-        // Before the start, the rig stands in its start's shape.
-        const bool stands = times[i] < start;
-        result.values(i, c) =
-            stands && order > 0 ? 0.0 : traces[k].Evaluate(c, std::max(times[i], start), order);
-      }
-    }
+    result.values.resize(static_cast<Eigen::Index>(runs[k].times.size()), channels);
+    for (int c = 0; c < channels; ++c)
+      result.values.col(c) = Shown(experiment, c, runs[k], &traces[k]);
   }
 }
 
-void SimulateStatics(const Experiment& experiment, int samples, const SimulationOptions& options,
-                     Run* run) {
+void SimulateStatics(const Experiment& experiment, const SimulationOptions& options, Run* run) {
   SimulatedRecord& result = *run->result;
+  const auto samples = static_cast<int>(run->times.size());
   result.values.resize(samples, static_cast<int>(experiment.channels.size()));
-  ChannelProbe probe(experiment.channels);
+  ChannelProbe probe(experiment.channels, run->sensors);
   Eigen::VectorXd row(result.values.cols());
   for (int i = 0; i < samples && result.ok; ++i) {
-    result.ok = run->rig->Equilibrate(static_cast<int>(experiment.record.t[i]), &result.message);
+    result.ok = run->rig->Equilibrate(
+        static_cast<int>(experiment.record.t[static_cast<std::size_t>(i)]), &result.message);
     if (result.ok && Stopped(options)) {
       result.ok = false;
       result.message = kStopped;
     }
     if (!result.ok) break;
     probe.Sample(*run->rig, row);
-    if (i > 0)
-      for (Eigen::Index c = 0; c < row.size(); ++c)
-        if (ChannelProbe::Winds(experiment.channels[static_cast<std::size_t>(c)].quantity))
-          row[c] = Unwrapped(row[c], result.values(i - 1, c));
+    for (Eigen::Index c = 0; c < row.size(); ++c) {
+      const auto channel = static_cast<std::size_t>(c);
+      const double scale = run->sensors[channel].scale;
+      const bool winds = ChannelProbe::Winds(experiment.channels[channel].quantity);
+      if (i > 0 && winds) row[c] = Unwrapped(row[c], result.values(i - 1, c) / scale);
+      if (scale != 1) row[c] *= scale;
+    }
     result.values.row(i) = row.transpose();
   }
 }
@@ -183,20 +223,26 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
   for (std::size_t first = 0; first < specimens.size(); first += together) {
     std::vector<Run> runs;
     for (std::size_t k = first; k < std::min(first + together, specimens.size()); ++k) {
-      Run run{std::make_unique<Rig>(experiment, specimens[k], options.elements), &results[k]};
       if (Stopped(options)) {
         results[k].ok = false;
         results[k].message = kStopped;
         continue;
       }
+      const Faults& faults = specimens[k].faults;
+      Run run;
+      run.rig = std::make_unique<Rig>(experiment, specimens[k], options.elements);
+      run.result = &results[k];
+      run.times.assign(experiment.record.t.begin(), experiment.record.t.begin() + samples);
+      if (!experiment.quasi_static()) run.times = MotionTimes(run.times, faults.clock);
+      run.sensors = SensorsOf(experiment.channels, faults);
       results[k].ok = run.rig->Start(&results[k].message, options.rest.get());
       if (results[k].ok) runs.push_back(std::move(run));
     }
     if (runs.empty() || samples == 0) continue;
     if (experiment.quasi_static())
-      for (Run& run : runs) SimulateStatics(experiment, samples, options, &run);
+      for (Run& run : runs) SimulateStatics(experiment, options, &run);
     else
-      SimulateMotion(experiment, samples, options, std::move(runs));
+      SimulateMotion(experiment, options, std::move(runs));
   }
   return results;
 }

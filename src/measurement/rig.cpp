@@ -7,6 +7,7 @@
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/rod/initial_shape.h"
 #include "pull.h"
+#include "record_clock.h"
 #include "swung_shape.h"
 
 namespace cosserat_cable {
@@ -58,8 +59,16 @@ Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements)
     : experiment_(experiment),
       specimen_(specimen),
       elements_(elements),
-      path_a_(experiment.a),
-      path_b_(experiment.b) {
+      path_a_(experiment.a, specimen.faults.a),
+      path_b_(experiment.b, specimen.faults.b),
+      drift_(DriftOf(specimen.cable)) {
+  if (drift_ && !experiment.record.t.empty()) {
+    const std::vector<double>& t = experiment.record.t;
+    const auto& clock = experiment.quasi_static() ? std::nullopt : specimen.faults.clock;
+    const std::vector<double> ends = MotionTimes({t.front(), t.back()}, clock);
+    record_begin_ = ends.front();
+    record_end_ = ends.back();
+  }
   if (!experiment.load.samples.empty()) {
     SetLoads(experiment.start_time());
   }
@@ -221,6 +230,7 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   const SwungShape swung(nodes, specimen_.swing, R_b * along.asDiagonal() * R_b.transpose());
   if (swings) nodes = swung.Nodes();
   if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
+  section_ = model.section;
   rod_ = std::make_unique<rod::Rod>(model);
   rod_->SetConfiguration(nodes);
   rod_->SetClamps(a_, b_);
@@ -237,7 +247,14 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   return true;
 }
 
+void Rig::ApplyDrift(double t) {
+  if (!drift_ || !(record_end_ > record_begin_)) return;
+  const double part = std::clamp((t - record_begin_) / (record_end_ - record_begin_), 0.0, 1.0);
+  rod_->SetSection(Drifted(section_, *drift_, part));
+}
+
 void Rig::MoveTo(double t) {
+  ApplyDrift(t);
   if (path_a_.moves()) a_ = TiltedA(path_a_.At(t).X);
   if (path_b_.moves()) b_ = path_b_.At(t).X;
   if (!experiment_.load.file.empty()) SetLoads(t);
@@ -247,6 +264,7 @@ bool Rig::Equilibrate(int step, std::string* message) {
   a_ = TiltedA(path_a_.AtStep(step));
   if (path_b_.moves()) b_ = path_b_.AtStep(step);
   if (!experiment_.load.file.empty()) SetLoads(step);
+  ApplyDrift(step);
   rod_->SetClamps(a_, b_);
   if (rod_->Equilibrate(load()).converged) return true;
   *message = "no static equilibrium found at step " + std::to_string(step);

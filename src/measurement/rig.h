@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "clamp_path.h"
+#include "cosserat_cable/cable/drift.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "cosserat_cable/measurement/specimen.h"
 #include "cosserat_cable/rod/point_loads.h"
@@ -48,6 +49,8 @@ class Rig {
   bool Settle(const std::vector<Pose>* near, rod::Rod* rod, std::string* message);
   bool SettleNear(const std::vector<Pose>& near, rod::Rod* rod);
   void SetLoads(double t);
+  /// The section at a time [s], or step, of a cable that drifts.
+  void ApplyDrift(double t);
 
   const Experiment& experiment_;
   Specimen specimen_;
@@ -56,6 +59,9 @@ class Rig {
   Pose a_, b_;
   std::vector<Pose> rest_;
   std::optional<rod::PointLoads> loads_;
+  std::optional<Drift> drift_;
+  double record_begin_ = 0, record_end_ = 0;  // on the motion's clock [s], or steps
+  rod::Section section_;                      // at the record's first instant
   std::unique_ptr<rod::Rod> rod_;
 };
 

@@ -4,6 +4,7 @@
 #include "cosserat_cable/input/map_reader.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "experiment_reader.h"
+#include "fault_reader.h"
 #include "specimen_check.h"
 
 namespace cosserat_cable {
@@ -40,10 +41,13 @@ void ReadSet(const YamlValue& root, MeasurementSet* set, Problems* problems) {
   const YamlValue format = map.Required("format");
   const YamlValue cable = map.Required("cable");
   const YamlValue experiments = map.Required("experiments");
+  const YamlValue faults = map.Optional("faults");
   if (!format.IsText(std::to_string(kFormat)))
     format.ReportUnexpected("1, the version of the format that is read here");
   ReadCable(cable, set, problems);
+  set->cable.faults = ReadFaults(faults);
   ReadExperiments(experiments, set, problems);
+  CheckFaults(*set, problems);
   if (set->experiments.empty() && cable.IsMap())
     CheckSpecimen(set->cable, set->cable_mark, problems);
 }

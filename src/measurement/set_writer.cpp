@@ -8,6 +8,7 @@
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "csv_writer.h"
+#include "fault_reader.h"
 
 namespace cosserat_cable {
 namespace {
@@ -177,6 +178,7 @@ std::string ExperimentText(const Experiment& experiment, Files* files) {
   if (!experiment.kind.empty()) line("kind", Quoted(experiment.kind));
   const std::string specimen = WriteCableKeys(experiment.specimen, indent + "  ");
   if (!specimen.empty()) text += indent + "specimen:\n" + specimen;
+  text += WriteFaults(experiment.specimen.faults, indent);
   line("gravity", List(experiment.gravity_W));
   line("a", EndText(experiment.a, name + "_a.csv", files));
   line("b", EndText(experiment.b, name + "_b.csv", files));
@@ -199,7 +201,8 @@ std::string ExperimentText(const Experiment& experiment, Files* files) {
 
 void WriteMeasurementSet(const MeasurementSet& set, const std::string& folder) {
   Files files;
-  std::string text = "format: 1\ncable:\n" + WriteCableKeys(set.cable, "  ") + "experiments:\n";
+  std::string text = "format: 1\ncable:\n" + WriteCableKeys(set.cable, "  ") +
+                     WriteFaults(set.cable.faults, "") + "experiments:\n";
   for (const Experiment& experiment : set.experiments) text += ExperimentText(experiment, &files);
   files.Add("measurement.yaml", text);
   files.Write(folder);

@@ -42,6 +42,7 @@ Specimen MakeSpecimen(const CableKeys& keys, const Experiment& experiment, Probl
   Specimen specimen;
   specimen.cable = CompleteCable(keys, experiment.mark, problems);
   specimen.disc_inertia = experiment.b.disc.inertia;
+  specimen.faults = keys.faults.value.value_or(Faults());
   return specimen;
 }
 

@@ -1,5 +1,6 @@
 #include "trace.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -48,12 +49,43 @@ void Trace::Unwrap(int quantity) {
     rows_(quantity, step) = Unwrapped(rows_(quantity, step), rows_(quantity, step - 1));
 }
 
+int Trace::FirstOf(int step, int count) const {
+  return std::clamp(step - kPoints / 2 + 1, 0, std::max(0, steps() - count));
+}
+
+std::array<double, 6> Trace::Polynomial(int quantity, int step) const {
+  // Inverse of the powers of 0, 1, ..., 5 minus the place of `step` among them, by that place.
+  using Matrix = Eigen::Matrix<double, kPoints, kPoints>;
+  static const std::array<Matrix, kPoints> inverses = [] {
+    std::array<Matrix, kPoints> all;
+    for (int place = 0; place < kPoints; ++place) {
+      Matrix powers;
+      for (int i = 0; i < kPoints; ++i)
+        for (int n = 0; n < kPoints; ++n) powers(i, n) = std::pow(i - place, n);
+      all[static_cast<std::size_t>(place)] = powers.inverse();
+    }
+    return all;
+  }();
+  std::array<double, 6> coefficients{};
+  const int count = std::min(kPoints, steps());
+  const int first = FirstOf(step, count);
+  Eigen::Map<Eigen::Matrix<double, kPoints, 1>> c(coefficients.data());
+  if (count == kPoints) {
+    c = inverses[static_cast<std::size_t>(step - first)] *
+        rows_.row(quantity).segment<kPoints>(first).transpose();
+    return coefficients;
+  }
+  Eigen::MatrixXd powers(count, count);
+  for (int i = 0; i < count; ++i)
+    for (int n = 0; n < count; ++n) powers(i, n) = std::pow(first + i - step, n);
+  c.head(count) = powers.inverse() * rows_.row(quantity).segment(first, count).transpose();
+  return coefficients;
+}
+
 double Trace::Evaluate(int quantity, double t, int order) const {
-  const int steps = static_cast<int>(rows_.cols());
-  const int count = std::min(kPoints, steps);
+  const int count = std::min(kPoints, steps());
   const double x = (t - start_) / dt_;
-  const int first =
-      std::clamp(static_cast<int>(std::floor(x)) - kPoints / 2 + 1, 0, std::max(0, steps - count));
+  const int first = FirstOf(static_cast<int>(std::floor(x)), count);
   double weights[kPoints];
   DerivativeWeights(x - first, count, order, weights);
   double sum = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace cosserat_cable {
@@ -25,7 +26,19 @@ class Trace {
   /// The derivative of order 0, 1 or 2 at time `t` [s].
   double Evaluate(int quantity, double t, int order) const;
 
+  /// Coefficients of the polynomial from a step to the next one, by powers of the part of a step
+  /// that has passed.
+  std::array<double, 6> Polynomial(int quantity, int step) const;
+
+  int steps() const { return static_cast<int>(rows_.cols()); }
+  double start() const { return start_; }
+  double dt() const { return dt_; }
+  double value(int quantity, int step) const { return rows_(quantity, step); }
+
  private:
+  /// The first of the steps that a polynomial goes through.
+  int FirstOf(int step, int count) const;
+
   double start_, dt_;
   Eigen::MatrixXd rows_;  // a column per step: written step by step
 };

@@ -28,6 +28,7 @@ class ChainStepper final : public RodHome {
   void Fetch(int lane, Rod::Impl* rod) override;
   Node<double> NodeAt(int lane, int i) const override;
   void MoveOut(int lane) override { residents_[lane] = nullptr; }
+  void ForgetLaw(int lane) override { dt_of_law_[lane] = 0; }
   void Predict(int lane, double dt, std::vector<Eigen::Vector3d>* positions) const override;
 
  private:

@@ -25,7 +25,7 @@ class EnergyBook {
     ends_.Restart(flow.ends);
     loads_.Restart(flow.loads);
     dissipation_.Restart(flow.dissipation);
-    lost_ = 0;
+    lost_ = by_section_ = 0;
     stored_at_start_ = stored;
     open_ = true;
     waits_ = false;
@@ -37,9 +37,12 @@ class EnergyBook {
     dissipation_.Add(dt, flow.dissipation);
     lost_ += lost;
   }
+  /// What a change of the section puts in [J].
+  void AddSectionChange(double work) { by_section_ += work; }
   EnergyBalance Balance(double stored) const {
     if (!open_) return {};
-    return {ends_.work(), loads_.work(), dissipation_.work() + lost_, stored - stored_at_start_};
+    return {ends_.work(), loads_.work(), dissipation_.work() + lost_, stored - stored_at_start_,
+            by_section_};
   }
 
  private:
@@ -61,7 +64,7 @@ class EnergyBook {
   };
 
   bool open_ = false, waits_ = false;
-  double stored_at_start_ = 0, lost_ = 0;
+  double stored_at_start_ = 0, lost_ = 0, by_section_ = 0;
   Integral ends_, loads_, dissipation_;
 };
 

@@ -27,6 +27,8 @@ Rod& Rod::operator=(Rod&&) noexcept = default;
 const RodModel& Rod::model() const { return impl_->model; }
 int Rod::elements() const { return impl_->model.elements; }
 
+void Rod::SetSection(const Section& section) { impl_->SetSection(section); }
+
 void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   Impl& m = *impl_;
   m.MoveOut();

@@ -20,6 +20,8 @@ class RodHome {
   virtual Node<double> NodeAt(int lane, int i) const = 0;
   /// The rod in `lane` changes by itself from now on, or ends.
   virtual void MoveOut(int lane) = 0;
+  /// The law of the rod in `lane` has changed.
+  virtual void ForgetLaw(int lane) = 0;
   /// As Rod::Predict, without the clamps.
   virtual void Predict(int lane, double dt, std::vector<Eigen::Vector3d>* positions) const = 0;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "step_kernels.h"
 
@@ -94,6 +95,24 @@ void Rod::Impl::MoveOut() {
   Fetch();
   if (address.home) address.home->MoveOut(address.lane);
   address.home = nullptr;
+}
+
+void Rod::Impl::SetSection(const Section& section) {
+  Fetch();
+  const bool counted = energy.open() && !energy.waits();
+  const double before = counted ? ElasticEnergy() : 0.0;
+  const Section old = std::exchange(model.section, section);
+  model.section.rhoA = old.rhoA;
+  model.section.rhoJ = old.rhoJ;
+  shear1 = MakeShearSeries(model.section, h, 0, 1);
+  shear2 = MakeShearSeries(model.section, h, 1, 0);
+  const BeamColumn<double> column = Column();
+  for (int e = 0; e < model.elements; ++e)
+    if (stiffening[e].x.C_M != 0 || stiffening[e].y.C_M != 0)
+      stiffening[e] = EvaluateStiffening(column, tension[e]);
+  dt_of_law_ = 0;
+  if (address.home) address.home->ForgetLaw(address.lane);
+  if (counted) energy.AddSectionChange(ElasticEnergy() - before);
 }
 
 void Rod::Impl::PrepareStatics() {

@@ -60,6 +60,9 @@ struct Rod::Impl {
   int first_free() const { return model.a.clamped() ? 1 : 0; }
   int last_free() const { return model.b.clamped() ? w.count - 2 : w.count - 1; }
 
+  /// See Rod::SetSection.
+  void SetSection(const Section& section);
+
   void PrepareStatics();
   /// The law at `tension`, for statics.
   void StiffenElements();

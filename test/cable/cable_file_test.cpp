@@ -312,10 +312,11 @@ TEST(CableFile, ReportsPairsThatAreHalfOrDouble) {
 }
 
 TEST(CableFile, ReportsUncertainAndAvoidThatNameNothingKnown) {
-  EXPECT_EQ(
-      SaidWith("  uncertain: [EI, name]\n")
-          .rfind("f:9: cable.uncertain[1]: got 'name', expected one of length, diameter, ", 0),
-      0u);
+  EXPECT_EQ(SaidWith("  uncertain: [EI, name]\n")
+                .rfind("f:9: cable.uncertain[1]: got 'name', expected one of length, diameter, "
+                       "width, height, ",
+                       0),
+            0u);
   EXPECT_EQ(SaidWith("  uncertain: EI\n"),
             "f:9: cable.uncertain: got 'EI', expected a list of the names of numeric keys\n");
   EXPECT_EQ(SaidWith("  avoid: [arm, wheel, arm]\n"),
@@ -353,7 +354,7 @@ TEST(CableFile, ReportsKeysThatAreUnknownTwiceThereOrMissing) {
   EXPECT_EQ(
       Load("format: 1\ncable: {}\n").said,
       "f:2: cable.length: missing, expected a number in (0, 20] [m]\n"
-      "f:2: cable.diameter: missing, expected a number in (0, 0.2] [m]\n"
+      "f:2: cable.diameter: missing, expected a number in (0, 0.2] [m], or width and height\n"
       "f:2: cable.mass_per_length: missing, expected a number in (0, 50] [kg/m]\n"
       "f:2: cable.EI: missing, expected a number in (0, 100000] [N m^2], or EI1 and EI2\n"
       "f:2: cable.GJ: missing, expected a number in (0, 100000] [N m^2]\n"
@@ -418,7 +419,7 @@ TEST(CableFile, ReportsEverythingAtOnceInTheOrderOfLines) {
            "    elements: few\n"
            "colour: red\n")
           .said,
-      "f:3: cables[0].diameter: missing, expected a number in (0, 0.2] [m]\n"
+      "f:3: cables[0].diameter: missing, expected a number in (0, 0.2] [m], or width and height\n"
       "f:4: cables[0].length: got 200, expected a number in (0, 20] [m]: is it in mm?\n"
       "f:5: cables[0].diametre: got an unknown key, did you mean 'diameter'?\n"
       "f:6: cables[0].mass_per_length: got .inf, expected a number in (0, 50] [kg/m]\n"
@@ -429,7 +430,7 @@ TEST(CableFile, ReportsEverythingAtOnceInTheOrderOfLines) {
       "f:12: cables[0].EI: got this key a second time, expected it once: it stands on line 8 "
       "already\n"
       "f:13: cables[1].length: missing, expected a number in (0, 20] [m]\n"
-      "f:13: cables[1].diameter: missing, expected a number in (0, 0.2] [m]\n"
+      "f:13: cables[1].diameter: missing, expected a number in (0, 0.2] [m], or width and height\n"
       "f:13: cables[1].mass_per_length: missing, expected a number in (0, 50] [kg/m]\n"
       "f:13: cables[1].EI: missing, expected a number in (0, 100000] [N m^2], or EI1 and EI2\n"
       "f:13: cables[1].GJ: missing, expected a number in (0, 100000] [N m^2]\n"

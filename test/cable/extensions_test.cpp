@@ -6,7 +6,7 @@
 #include "cable/cable_cases.h"
 #include "cable/cable_text.h"
 #include "cosserat_cable/cable/cable_simulation.h"
-#include "cosserat_cable/cable/extension_number.h"
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/rod/initial_shape.h"
 #include "cosserat_cable/rod/rod.h"
@@ -168,42 +168,10 @@ TEST(Extensions, HaveNumbersThatIdentificationMayAdjust) {
       "cable's extensions: did you mean 'extensions.maxwell[0].EI'?\n"
       "f:17: cable.uncertain[1]: got 'extensions.clamp_damping.b.bending', expected a number "
       "of the cable's extensions: did you mean 'extensions.clamp_damping.a.bending'?\n"
-      "f:18: cable.uncertain[2]: got 'extensions', expected one of length, diameter, "
+      "f:18: cable.uncertain[2]: got 'extensions', expected one of length, diameter, width, "
+      "height, "
       "mass_per_length, EI, EI1, EI2, GJ, EA, GA, GA1, GA2, eta_EI, eta_EI1, eta_EI2, eta_GJ, "
-      "eta_EA, eta_GA, eta_GA1, eta_GA2, disc.inertia, D_E\n");
-}
-
-TEST(Extensions, GiveTheirNumbersByThePathsOfTheFile) {
-  std::vector<ExtensionKey> keys;
-  for (const CableExtension& one : LoadOne(std::string(kSpecimen) + kAllThree).extensions) {
-    keys.emplace_back();
-    keys.back().extension = one;
-  }
-  const auto numbers = [&](const std::string& name) {
-    std::vector<double> values;
-    if (const auto found = FindExtensionNumber("extensions." + name, &keys))
-      for (const double* value : found->values) values.push_back(*value);
-    return values;
-  };
-  using Values = std::vector<double>;
-  EXPECT_EQ(numbers("maxwell[0].tau"), Values{0.05});
-  EXPECT_EQ(numbers("maxwell[0].EI"), (Values{0.002, 0.002}));
-  EXPECT_EQ(numbers("maxwell[1].EI"), (Values{0.003, 0.004}));
-  EXPECT_EQ(numbers("maxwell[1].EI2"), Values{0.004});
-  EXPECT_EQ(numbers("clamp_damping.a.bending"), Values{1e-4});
-  for (const char* none :
-       {"maxwell[2].EI", "maxwell.EI", "maxwell[0].EJ", "clamp_damping.b.bending",
-        "clamp_damping[0].a.bending", "maxwell[0]", ""})
-    EXPECT_TRUE(numbers(none).empty()) << none;
-  for (const auto& [name, unit] : {std::pair<const char*, const char*>{"maxwell[0].tau", "s"},
-                                   {"maxwell[12].EI", "N m^2"},
-                                   {"maxwell[0].EI2", "N m^2"},
-                                   {"maxwell[0].GJ", "N m^2"},
-                                   {"maxwell[0].EA", "N"},
-                                   {"clamp_compliance.a.bending", "N m/rad"},
-                                   {"clamp_damping.b.torsion", "N m s/rad"},
-                                   {"sunshine.a", ""}})
-    EXPECT_EQ(ExtensionNumberUnit(std::string("extensions.") + name), unit) << name;
+      "eta_EA, eta_GA, eta_GA1, eta_GA2, disc.inertia\n");
 }
 
 TEST(Extensions, ThatDoNotExistCannotBeSimulated) {

@@ -169,7 +169,7 @@ TEST(DirectEvaluation, TorsionOverLengths) {
   const DirectEvaluation out = EvaluateDirectly(set);
   ASSERT_EQ(out.torsion.size(), 3u);
   EXPECT_NEAR(out.values.at("GJ").value, 1e-2, kFrequency * 1e-2);
-  const DirectValue eta = out.values.at("eta_GJ"), D_E = out.values.at("D_E");
+  const DirectValue eta = out.values.at("eta_GJ"), D_E = out.values.at(kEndDamping);
   EXPECT_NEAR(eta.value, 4e-5, 4 * eta.sd);
   EXPECT_NEAR(D_E.value, 1e-4, 4 * D_E.sd);
   EXPECT_NEAR(eta.value, 4e-5, kDecay * 4e-5);
@@ -190,11 +190,11 @@ TEST(DirectEvaluation, OneLengthGivesOneCombination) {
   }
   const DirectEvaluation out = EvaluateDirectly(set);
   EXPECT_EQ(out.values.count("eta_GJ"), 0u);
-  EXPECT_EQ(out.values.count("D_E"), 0u);
+  EXPECT_EQ(out.values.count(kEndDamping), 0u);
   ASSERT_TRUE(out.combination);
   EXPECT_NEAR(out.combination->value, 3e-4, kDecay * 3e-4);
   EXPECT_NE(out.undetermined.at("eta_GJ").find("eta_GJ/L + D_E"), std::string::npos);
-  EXPECT_NE(out.undetermined.at("D_E").find("0.2 m"), std::string::npos);
+  EXPECT_NE(out.undetermined.at(kEndDamping).find("0.2 m"), std::string::npos);
 }
 
 TEST(DirectEvaluation, RepeatsThatScatterMakeTheInterval) {
@@ -257,7 +257,7 @@ TEST(DirectEvaluation, JsonHoldsTheNumbers) {
   EXPECT_EQ(json["combination"]["value"].get<double>(), out.combination->value);
   EXPECT_EQ(json["bending"][0]["omega"][1].get<double>(), out.bending[0].omega_sd);
   EXPECT_EQ(json["torsion"][0]["inertia"].get<double>(), 1e-4);
-  EXPECT_EQ(json["undetermined"]["D_E"].get<std::string>(), out.undetermined.at("D_E"));
+  EXPECT_EQ(json["undetermined"][kEndDamping].get<std::string>(), out.undetermined.at(kEndDamping));
 }
 
 TEST(WeightedLine, Quantiles) {

@@ -131,7 +131,7 @@ TEST(MeasurementSets, TakeOtherStyles) {
   WriteAll(&folder,
            "{\"format\": 1, \"cable\": {\"length\": 1, \"diameter\": 0.01, \"mass_per_length\": 1,"
            " \"EI1\": 1, \"EI2\": 2, \"GJ\": 1, \"eta_EI\": 0, \"eta_GJ\": \"critical\","
-           " \"uncertain\": [\"EI\", \"disc.inertia\", \"D_E\"]},\n"
+           " \"uncertain\": [\"EI\", \"disc.inertia\", \"extensions.clamp_damping.b.torsion\"]},\n"
            "\"experiments\": [{\"name\": \"1 a\", \"a\": {\"pose\": [0,0,0,0,0,0,1]},"
            " \"b\": \"free\", \"start\": {\"rest\": true}, \"record\": \"./r.csv\","
            " \"channels\": [{\"column\": \"tip x\", \"s\": 1.0000000000000002,"
@@ -143,7 +143,7 @@ TEST(MeasurementSets, TakeOtherStyles) {
   EXPECT_EQ(set.experiments[0].channels[0].axis, 1);
   EXPECT_EQ(set.experiments[0].channels[0].s, 1) << "rounding is no mistake";
   EXPECT_EQ(set.experiments[0].record.values.col(0), Eigen::Vector2d(1e-3, 0.5));
-  EXPECT_EQ(set.cable.uncertain.value->at(2).name, "D_E");
+  EXPECT_EQ(set.cable.uncertain.value->at(2).name, "extensions.clamp_damping.b.torsion");
 }
 
 TEST(MeasurementSets, LongRecordsAreReadQuickly) {

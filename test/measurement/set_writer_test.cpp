@@ -102,7 +102,7 @@ TEST(SetWriter, WritesEverythingThatTheFormatKnows) {
                              "  eta_EA: critical\n"
                              "  eta_GA: 0\n"
                              "  masses: [{s: 0.1, mass: 0.002}]\n"
-                             "  uncertain: [EI, D_E, 'extensions.maxwell[0].EI']\n"
+                             "  uncertain: [EI, disc.inertia, 'extensions.maxwell[0].EI']\n"
                              "  elements: 30\n"
                              "  extensions: {maxwell: [{tau: 0.1, EI: 0.001}]}\n"));
   const MeasurementSet set = folder.LoadGood();

@@ -13,6 +13,9 @@ import xml.etree.ElementTree
 
 from helpers import contents, run
 
+# The loss at the disc: D_E in the source paper's formulas.
+END_DAMPING = 'extensions.clamp_damping.b.torsion'
+
 EMPTY = {'meta', 'img', 'br'}  # html elements without an end tag
 NOISE = 1e-5
 
@@ -76,12 +79,12 @@ def answer():
     """As much as cable_identify can say."""
     grid = [0.0117 + 0.0001 * k for k in range(7)]
     candidates = [{'text': f'{n} repeats at {lengths}', 'lengths': lengths, 'inertia': 1e-4,
-                   'repeats': n, 'predicted': {'eta_GJ': w / math.sqrt(n), 'D_E': 0.3}}
+                   'repeats': n, 'predicted': {'eta_GJ': w / math.sqrt(n), END_DAMPING: 0.3}}
                   for lengths, w in (([0.1, 0.2], 0.6), ([0.05, 0.5], 0.25)) for n in (1, 3, 10)]
     return {
         'format': 1, 'set': 'made <up> & small', 'unheard_of': [1, 2],
         'parameters': {'EI': [0.012, 1e-4], 'eta_EI': [1e-4, 2e-6], 'eta_GJ': [4e-5, 2e-6],
-                       'D_E': [1e-4, 1e-5], 'GJ': None},
+                       END_DAMPING: [1e-4, 1e-5], 'GJ': None},
         'undetermined': {'GJ': '[GJ] moves no record of this set by more than its noise'},
         'units': {'EI': 'N m^2'}, 'intervals': {'EI': [0.0118, 0.0123]}, 'start': {'EI': 0.010},
         'defaults_kept': {'GJ': 0.009},
@@ -93,7 +96,7 @@ def answer():
                                                             channel('side', 'm', 2.5)]},
             {'name': 'pull', 'kind': 'bend', 'quasi_static': True, 'length': 0.2,
              'file': 'fit/pull.csv', 'rms': 1, 'channels': [channel('force', 'N')]}],
-        'correlation': {'names': ['EI', 'eta_EI', 'eta_GJ', 'D_E'],
+        'correlation': {'names': ['EI', 'eta_EI', 'eta_GJ', END_DAMPING],
                         'matrix': [[1, 0.1, 0, 0], [0.1, 1, 0, 0], [0, 0, 1, -0.9],
                                    [0, 0, -0.9, 1]]},
         'profiles': {'EI': {'value': grid,
@@ -105,7 +108,7 @@ def answer():
                    'torsion': [ring(f'twist{k}', length, (4e-5 / length + 1e-4) / 2e-4, 1e-4)
                                for k, length in enumerate((0.1, 0.2, 0.4))],
                    'values': {'EI': value(0.0147, 1e-4), 'eta_EI': value(1.02e-4, 2e-6),
-                              'eta_GJ': value(4.4e-5, 5e-6), 'D_E': value(0.9e-4, 2e-5)},
+                              'eta_GJ': value(4.4e-5, 5e-6), END_DAMPING: value(0.9e-4, 2e-5)},
                    'eta_GJ_D_E_correlation': -0.8, 'undetermined': {},
                    'critical': {'eta_GJ': 2e-4}, 'messages': []},
         'slips': [{'experiment': 'bend', 'column': 'side', 'kind': 'sign',
@@ -201,7 +204,7 @@ class IdentificationReport(unittest.TestCase):
     def test_one_length_has_no_line(self):
         data = answer()
         direct = data['direct']
-        del direct['values']['eta_GJ'], direct['values']['D_E'], direct['eta_GJ_D_E_correlation']
+        del direct['values']['eta_GJ'], direct['values'][END_DAMPING], direct['eta_GJ_D_E_correlation']
         direct['combination'] = dict(value(3e-4, 1e-5), text='eta_GJ/L + D_E', unit='N m s',
                                      length=0.2)
         self.write(data)

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/cable/faults.h"
+#include "cosserat_cable/cable/section_shape.h"
 #include "cosserat_cable/input/map_reader.h"
 #include "cosserat_cable/input/problems.h"
 
@@ -24,6 +26,7 @@ template <typename T>
 struct CableKey {
   std::optional<T> value;  ///< nothing where the key is absent, or wrong (then it was reported)
   SourceMark mark;         ///< line 0 where the key is absent
+  SourceMark second = {};  ///< of a pair: where its second key is, if it has two
   bool given() const { return mark.line > 0; }
 };
 
@@ -70,7 +73,8 @@ struct ExtensionKey {
 
 /// Pairs are about, or along, a1 and a2; a file gives them by one key (EI) or by two (EI1, EI2).
 struct CableKeys {
-  CableKey<double> length, diameter, mass_per_length, GJ, EA, apex_s;
+  /// Either the diameter is given, or width and height.
+  CableKey<double> length, diameter, width, height, mass_per_length, GJ, EA, apex_s;
   CableKey<std::array<double, 2>> EI, GA;
   CableKey<DampingKey> eta_GJ, eta_EA;
   CableKey<std::array<DampingKey, 2>> eta_EI, eta_GA;
@@ -81,9 +85,12 @@ struct CableKeys {
   CableKey<bool> use_visual;
   CableKey<ContactKey> contact;
   CableKey<std::vector<ExtensionKey>> extensions;
+  /// Of the record that a specimen's cable is in, where a measurement set has some; ReadCableKeys
+  /// refuses them, and WriteCableKeys leaves them out: the set's own reader and writer do it.
+  CableKey<Faults> faults;
 
   /// Takes from `other` what is not given here. A pair is taken or left as a whole,
-  /// and so are the extensions.
+  /// and so are the section's sides, the extensions and the faults.
   void FillFrom(const CableKeys& other);
 };
 
@@ -100,7 +107,12 @@ std::string WriteCableKeys(const CableKeys& keys, const std::string& indent);
 ///
 /// Defaults (eqs. 9 and 10 of the source paper): EA = 16 min(EI1, EI2)/d^2, GA = EA/3,
 /// eta_EA = (4 L/pi) sqrt(rhoA EA), eta_GJ = (4 L/pi) sqrt(rhoJ GJ), eta_GA = 2 sqrt(rhoI GA).
+/// Of a flat section EA = 12 min(EI1/height^2, EI2/width^2), and eta_GA1 goes with rhoI about a2,
+/// eta_GA2 with that about a1, as shear does with bending.
 /// The stiffness of contact as DefaultContactStiffness has it, of a cable without clamps.
 CableModel CompleteCable(const CableKeys& keys, const SourceMark& cable, Problems* problems);
+
+/// The section's outline, where the keys say it whole.
+std::optional<SectionShape> ShapeOf(const CableKeys& keys);
 
 }  // namespace cosserat_cable

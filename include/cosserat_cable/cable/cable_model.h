@@ -33,7 +33,8 @@ struct CableModel {
   ClampModel a, b;
 
   double length = 0;                            ///< L [m], free length between the clamps
-  double diameter = 0;                          ///< d [m]
+  double diameter = 0;                          ///< d [m]; of a flat section its larger side
+  double width = 0, height = 0;                 ///< of a flat section, along a1, a2 [m]; else 0
   double mass_per_length = 0;                   ///< rhoA [kg/m]
   double EI1 = 0, EI2 = 0;                      ///< bending stiffness about a1, a2 [N m^2]
   double GJ = 0;                                ///< torsional stiffness [N m^2]
@@ -52,8 +53,13 @@ struct CableModel {
   std::vector<std::string>
       uncertain;  ///< keys that identification may adjust; unused in simulation
 
-  double rhoI() const { return mass_per_length * diameter * diameter / 16; }  ///< [kg m]
-  double rhoJ() const { return 2 * rhoI(); }                                  ///< [kg m]
+  bool flat() const { return width > 0; }
+  /// Rotary inertia about a1, a2 and a3 [kg m].
+  double rhoI1() const { return flat() ? mass_per_length * height * height / 12 : rhoI(); }
+  double rhoI2() const { return flat() ? mass_per_length * width * width / 12 : rhoI(); }
+  double rhoJ() const { return rhoI1() + rhoI2(); }
+  /// Of a round section, about a1 as about a2 [kg m].
+  double rhoI() const { return mass_per_length * diameter * diameter / 16; }
 };
 
 /// Where a cable's file names what only the vehicle can confirm. Line 0 where nothing is named.

@@ -22,7 +22,8 @@ constexpr double kDeepestShareOfRadius = 0.05;
 /// say nothing of c. The larger of EI1 and EI2 counts.
 ///
 /// E = 64 EI/(pi d^4) is the modulus of a round bar with this EI: a cable dents its own section
-/// before it presses harder than E r per point. 2e4 N/m is stiff enough for thin cables.
+/// before it presses harder than E r per point (of a flat section, the modulus of a rectangular
+/// bar, and half its larger side). 2e4 N/m is stiff enough for thin cables.
 double DefaultContactStiffness(const CableModel& cable);
 
 /// A stiffness per contact point [N/m], two digits, with which a cable that was `penetration` [m]

@@ -56,7 +56,8 @@ struct DirectRingDown {
 
 struct DirectEvaluation {
   std::vector<DirectRingDown> bending, torsion;
-  /// EI, eta_EI, GJ, eta_GJ, D_E as far as the set has them. [N m^2], [N m^2 s], D_E [N m s]
+  /// EI, eta_EI, GJ, eta_GJ and the loss at the disc as far as the set has them, by their paths in
+  /// the cable file [N m^2], [N m^2 s], [N m s]. In formulas that loss is the source paper's D_E.
   std::map<std::string, DirectValue> values;
   std::map<std::string, std::string> undetermined;  ///< why, for those that it has a test for
   double eta_GJ_D_E_correlation = 0;                ///< where both are determined

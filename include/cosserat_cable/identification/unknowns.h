@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/input/problems.h"
 #include "cosserat_cable/measurement/experiment_simulation.h"
 #include "cosserat_cable/measurement/measurement_set.h"
@@ -15,7 +17,8 @@ namespace cosserat_cable {
 /// One number that is looked for.
 struct Unknown {
   enum class Kind {
-    kCable,   ///< of the cable, the same in all experiments: a key of it, disc.inertia or D_E
+    kCable,   ///< a parameter of the registry, the same in all experiments: of the cable, its
+              ///< extensions, the disc, or a fault of the records
     kOffset,  ///< of a channel
     kSwing,   ///< amplitude of a shape at an unknown start
     kSpeed,   ///< the same, of its velocity
@@ -30,7 +33,8 @@ struct Unknown {
   double scale = 1;  ///< a change of this size changes the records markedly
   double lower = -std::numeric_limits<double>::infinity();
   double upper = std::numeric_limits<double>::infinity();
-  bool damping = false;     ///< may be zero
+  bool damping = false;                           ///< a viscous loss
+  ParameterSign sign = ParameterSign::kPositive;  ///< of a parameter of the registry
   double prior_sd = 0;      ///< known beforehand to be `start` within this; 0: nothing is known
   int experiment = -1;      ///< whose, where it is not the cable's
   int index = 0;            ///< channel, shape, axis, or which unknown it is the scatter of
@@ -74,6 +78,8 @@ class Unknowns {
 
   /// The set's keys with these values filled in: the identified cable.
   CableKeys FilledKeys(const Eigen::VectorXd& values) const;
+  /// The set with these values filled in where they stand: cable, discs and faults.
+  MeasurementSet FilledSet(const Eigen::VectorXd& values) const;
   /// Index of the unknown with this name, or -1.
   int Find(const std::string& name) const;
 
@@ -82,6 +88,8 @@ class Unknowns {
   void AddScatter(const ParameterScatter& scatter);
   void AddCable(const std::string& name, Problems* problems);
   void AddSwing(int experiment);
+  std::optional<double> DefaultOf(const std::string& name) const;
+  bool FaultConcerns(const std::string& name, int experiment) const;
 
   MeasurementSet set_;
   std::vector<Unknown> all_;

@@ -27,6 +27,9 @@ class MapReader {
   YamlValue Required(const std::string& key);
   /// The key's value, or an absent one.
   YamlValue Optional(const std::string& key);
+  /// Reports a key that belongs elsewhere, where it is given; it is not among those that are said to
+  /// be expected.
+  void Refuse(const std::string& key, const std::string& message);
   /// All entries of a map whose keys are names that the user chooses, in the order of the file.
   std::vector<std::pair<std::string, YamlValue>> Entries();
 

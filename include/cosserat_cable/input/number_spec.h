@@ -26,6 +26,11 @@ class NumberSpec {
   NumberSpec& Or(std::string alternative);
 
   bool Contains(double value) const;
+  double low() const { return low_; }
+  double high() const { return high_; }
+  /// Whether the lower end is in the range.
+  bool low_belongs() const { return low_belongs_; }
+  const std::string& unit() const { return unit_; }
   /// "a positive number [N m^2]", "a number in (0, 20] [m]", ...
   std::string Expected() const;
   /// The hint as ": is it in mm?" where `value` lies above the range, else "".

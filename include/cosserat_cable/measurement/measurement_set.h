@@ -117,7 +117,7 @@ struct ExperimentLoad {
 struct Experiment {
   std::string name;
   std::string kind;    ///< a label for people; may be empty
-  CableKeys specimen;  ///< what is given here goes before the set's cable
+  CableKeys specimen;  ///< what is given here goes before the set's cable; its faults likewise
   Eigen::Vector3d gravity_W{0, 0, -9.81};
   EndCondition a, b;
   StartCondition start;
@@ -134,7 +134,7 @@ struct Experiment {
 
 struct MeasurementSet {
   std::string folder;
-  CableKeys cable;
+  CableKeys cable;  ///< and the faults of all experiments that do not give their own
   SourceMark cable_mark;
   std::vector<Experiment> experiments;
 };

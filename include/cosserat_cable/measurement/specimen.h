@@ -26,10 +26,12 @@ struct Specimen {
   /// Rotation vector [rad], in clamp a's frame, by which the clamp points elsewhere than the set
   /// says; the whole rest of the rig stays.
   Eigen::Vector3d tilt_a = Eigen::Vector3d::Zero();
-  Swing swing;  ///< of an experiment with an unknown start; empty: at rest
+  Swing swing;    ///< of an experiment with an unknown start; empty: at rest
+  Faults faults;  ///< of the record and its rig
 };
 
-/// The keys of an experiment's cable: the specimen's own before the set's.
+/// The keys of an experiment's cable: the specimen's own before the set's. Its faults are the
+/// experiment's, where it has some, else the set's.
 CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment);
 
 /// The same, with the fitted quantities of a cable file: stiffness, damping and extensions come

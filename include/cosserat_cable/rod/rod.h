@@ -85,6 +85,11 @@ class Rod : public Centreline {
   /// Sets the configuration, at rest. `nodes`: elements + 1 poses, a3 along growing s. The clamps
   /// are where the end nodes are.
   void SetConfiguration(const std::vector<Pose>& nodes);
+  /// Takes another section law from the next step, or equilibrium, on: parameters that change in
+  /// time. Strains, and the unstressed ones' places, are as they were; the stresses that are read
+  /// before are still the old law's. Its mass and inertia do not count. Not for a rod that is
+  /// shared with a running step.
+  void SetSection(const Section& section);
   /// Puts the clamps' frames somewhere else, for the next Equilibrate.
   void SetClamps(const Pose& a, const Pose& b);
   /// Sets nodes and clamps moving as a rigid body: with a frame that has this motion in the world.
