@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "cosserat_cable/math/rotation.h"
 #include "motion_channel.h"
@@ -95,7 +96,8 @@ struct EdgeJudge::Impl {
   Sample last, last_kept;
   double period_sum = 0;
   std::uint64_t periods = 0;
-  int stride = 0;  // 0: not known yet
+  int stride = 0;               // 0: not known yet
+  std::vector<Sample> waiting;  // until it is
   int since_kept = 0;
 
   static double Seconds(std::int64_t from, std::int64_t to) {
@@ -104,6 +106,7 @@ struct EdgeJudge::Impl {
   double period() const { return periods > 0 ? period_sum / static_cast<double>(periods) : 0; }
   void Add(const Sample& sample);
   void Keep(const Sample& sample);
+  void KeepWaiting();
 
   /// The channel in which the tally is the farthest beyond `limit`; null where there is none.
   template <class Count, class Excess>
@@ -141,6 +144,7 @@ bool EdgeJudge::MovesByJumps() const {
 }
 
 void EdgeJudge::Restart() {
+  impl_->KeepWaiting();
   impl_->has_last = false;
   impl_->stride = 0;
   impl_->period_sum = 0;
@@ -169,19 +173,15 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
   has_last = true;
 }
 
-// Every so manieth sample: counted, not timed, for the stamps themselves are judged.
+// Every so manieth sample: counted, not timed, for the stamps themselves are judged. The first ones
+// wait until the rate is known.
 void EdgeJudge::Impl::Keep(const Sample& sample) {
   if (stride == 0) {
+    if (waiting.empty()) waiting.push_back(last);
+    waiting.push_back(sample);
     const bool slow = periods == 0;  // nothing but gaps: every sample counts
-    if (!slow && periods < kIntervalsToKnowTheRate) return;
-    stride = slow ? 1 : std::max(1, static_cast<int>(std::lround(kBase / period())));
-    if (slow) {
-      last_kept = last;
-    } else {
-      last_kept = sample;
-      since_kept = 0;
-      return;
-    }
+    if (slow || periods >= kIntervalsToKnowTheRate) KeepWaiting();
+    return;
   }
   if (++since_kept < stride) return;
   since_kept = 0;
@@ -189,6 +189,15 @@ void EdgeJudge::Impl::Keep(const Sample& sample) {
   translation.Add(sample.X.p - last_kept.X.p, h, sample.stamp);
   rotation.Add(Turn(last_kept.X.q, sample.X.q), h, sample.stamp);
   last_kept = sample;
+}
+
+void EdgeJudge::Impl::KeepWaiting() {
+  if (waiting.empty()) return;
+  stride = periods == 0 ? 1 : std::max(1, static_cast<int>(std::lround(kBase / period())));
+  last_kept = waiting.front();
+  since_kept = 0;
+  for (std::size_t i = 1; i < waiting.size(); ++i) Keep(waiting[i]);
+  waiting.clear();
 }
 
 Finding EdgeJudge::Impl::Start(const char* kind, const MotionChannel::Tally& tally) const {
@@ -295,6 +304,8 @@ void EdgeJudge::Impl::ReportNoise(Findings* findings) const {
 
 Findings EdgeJudge::Report(const std::string& subject, const std::string& topic) const {
   Findings findings;
+  // A recording of less is judged by what there is.
+  if (impl_->stride == 0) impl_->KeepWaiting();
   impl_->ReportJumps(&findings);
   impl_->ReportAccelerations(&findings);
   impl_->ReportLateness(&findings);

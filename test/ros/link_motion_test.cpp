@@ -253,6 +253,22 @@ TEST_F(LinkMotionTest, FindsTheFrameBelowALocalisation) {
   EXPECT_EQ(findings[0].worst, kStart + 5'000'000'000);
 }
 
+TEST_F(LinkMotionTest, TellsACorrectionInAShortRecordingToo) {
+  LinkMotion links(vehicle_, needed_, options_);
+  Drive(&links, kStart, 200);
+  for (std::int64_t i = 0; i < 20; ++i) {
+    Pose corrected;
+    corrected.p.x() = i < 10 ? 7 : 7.1;
+    links.Ingest(Transform("map", "odom", kStart + i * 100'000'000, corrected), false);
+  }
+  links.Finish();
+  EXPECT_EQ(links.SmoothWorld(), "odom");
+  const Findings findings = links.MotionFindings(links.world());
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].subject, "map -> odom");
+  EXPECT_EQ(findings[0].worst, kStart + 1'000'000'000);
+}
+
 TEST_F(LinkMotionTest, WhatTheUserTakesAsInertialIsNotJudgedFromAbove) {
   options_.world_frame = "odom";
   LinkMotion links(vehicle_, needed_, options_);
