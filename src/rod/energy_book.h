@@ -7,9 +7,11 @@ namespace cosserat_cable::rod {
 
 class EnergyBook {
  public:
-  /// What flows at one instant [W].
+  /// What flows at one instant [W], and what was lost since the one before regardless of how fast
+  /// [J], as by friction.
   struct Flow {
     double ends = 0, loads = 0, dissipation = 0;
+    double lost = 0;
   };
 
   /// The next step starts a new account.
@@ -25,6 +27,7 @@ class EnergyBook {
     ends_.Restart(flow.ends);
     loads_.Restart(flow.loads);
     dissipation_.Restart(flow.dissipation);
+    lost_ = 0;
     stored_at_start_ = stored;
     open_ = true;
     waits_ = false;
@@ -33,10 +36,11 @@ class EnergyBook {
     ends_.Add(dt, flow.ends);
     loads_.Add(dt, flow.loads);
     dissipation_.Add(dt, flow.dissipation);
+    lost_ += flow.lost;
   }
   EnergyBalance Balance(double stored) const {
     if (!open_) return {};
-    return {ends_.work(), loads_.work(), dissipation_.work(), stored - stored_at_start_};
+    return {ends_.work(), loads_.work(), dissipation_.work() + lost_, stored - stored_at_start_};
   }
 
  private:
@@ -58,7 +62,7 @@ class EnergyBook {
   };
 
   bool open_ = false, waits_ = false;
-  double stored_at_start_ = 0;
+  double lost_ = 0, stored_at_start_ = 0;
   Integral ends_, loads_, dissipation_;
 };
 

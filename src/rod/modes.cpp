@@ -198,12 +198,15 @@ std::vector<bool> HeldUnknowns(const RodModel& model, int unknowns) {
 std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
   Rod copy(rod);
   Rod::Impl& m = *copy.impl_;
+  m.BeginHistory();
   for (NodeState& n : m.w.node) n.v = n.omega = V3{};
+  for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
   m.w.trial = m.w.node;
   m.PrepareStatics();
   const int unknowns = 6 * m.w.count;
   const std::vector<bool> held = HeldUnknowns(m.model, unknowns);
-  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, held, load, &m.w);
+  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, held, m.Acting(load),
+                             &m.w);
   const Directions directions(rod, linear);
 
   const double length = m.model.length;

@@ -29,6 +29,14 @@ std::vector<Quat<double>> JointsByNode(const RodModel& model) {
   return joints;
 }
 
+/// Puts the load that is given in its place, the last.
+const Load* With(const Load* given, LoadSum* sum) {
+  if (sum->loads.empty()) return given;
+  static const LoadSum none;
+  sum->loads.back() = given ? given : &none;
+  return sum;
+}
+
 }  // namespace
 
 Rod::Impl::Impl(const RodModel& m)
@@ -76,6 +84,12 @@ Rod::Impl::Impl(const RodModel& m)
     }
   }
   w.gravity = ToSmall(m.gravity);
+  for (const auto& load : m.loads) {
+    acting_.loads.push_back(load.get());
+    if (load->ActsAtRest()) acting_at_rest_.loads.push_back(load.get());
+  }
+  for (LoadSum* sum : {&acting_, &acting_at_rest_})
+    if (!sum->loads.empty()) sum->loads.push_back(nullptr);  // room for the one that is given
   PrepareStatics();
 }
 
@@ -93,6 +107,16 @@ void Rod::Impl::MoveOut() {
   Fetch();
   if (address.home) address.home->MoveOut(address.lane);
   address.home = nullptr;
+}
+
+const Load* Rod::Impl::Acting(const Load* given) { return With(given, &acting_); }
+const Load* Rod::Impl::ActingAtRest(const Load* given) { return With(given, &acting_at_rest_); }
+
+void Rod::Impl::BeginHistory() {
+  if (has_history_) return;
+  has_history_ = true;
+  ends.a.CommitLaws(w.node.front(), EndPart::Memory::kRested);
+  ends.b.CommitLaws(w.node.back(), EndPart::Memory::kRested);
 }
 
 void Rod::Impl::PrepareStatics() {
@@ -202,6 +226,9 @@ void Rod::Impl::TakeRest() {
     branch_stress_[e].M = relaxed.M.cwiseProduct(strain.kappa);
   }
   dissipation_rate_ = 0;
+  ends.a.CommitLaws(w.trial.front(), memory_);
+  ends.b.CommitLaws(w.trial.back(), memory_);
+  has_history_ = true;
   energy.Close();
 }
 
