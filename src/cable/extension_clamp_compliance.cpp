@@ -7,7 +7,7 @@ namespace {
 void Enter(const CableExtension& extension, rod::RodModel* rod) {
   ForEachClampAxis(extension, rod, [](rod::EndModel* end, int axis, double stiffness) {
     end->rotation[axis] = false;
-    end->stiffness[axis] = stiffness;
+    end->stiffness[axis] += stiffness;
   });
 }
 

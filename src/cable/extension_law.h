@@ -5,6 +5,7 @@
 // naming its numbers in `uncertain` and reporting mistakes follow from the keys.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,7 +20,9 @@ namespace cosserat_cable {
 struct ExtensionField {
   enum class Need {
     kRequired,
-    kAny  ///< may be left out; an entry without any of these would do nothing, and is a mistake
+    kAny,  ///< may be left out; an entry without any of these would do nothing, and is a mistake
+    kInGroup,  ///< required where its map of the entry is given; so is one such map at least
+    kOptional  ///< may be left out
   };
   std::string path;  ///< "tau"; "a.bending" for one in a map of the entry
   std::string unit;
@@ -37,7 +40,11 @@ struct ExtensionLaw {
   std::vector<ExtensionField> fields;
   /// Reports what does not go with the rest of the cable; may be null.
   void (*check)(const ExtensionKey& key, const CableKeys& cable, Problems* problems) = nullptr;
+  /// What it changes in the rod; may be null.
   void (*enter)(const CableExtension& extension, rod::RodModel* rod) = nullptr;
+  /// What acts on the rod from outside, null for nothing; may itself be null.
+  std::shared_ptr<const rod::Load> (*load)(const CableExtension& extension,
+                                           const CableModel& cable) = nullptr;
 };
 
 /// Every one that there is.

@@ -83,7 +83,8 @@ TEST(Extensions, ThatAreUnknownGetTheNearestName) {
             "'clamp_compliance'?\n");
   EXPECT_EQ(SaidWith("  extensions: {sunshine: 1}\n"),
             "f:9: cable.extensions.sunshine: got an unknown key, expected one of maxwell, "
-            "clamp_compliance, clamp_damping\n");
+            "clamp_compliance, clamp_damping, clamp_friction, clamp_play, air_drag, "
+            "external_damping, added_mass, contact\n");
   EXPECT_EQ(SaidWith("  extensions: maxwell\n"),
             "f:9: cable.extensions: got 'maxwell', expected a map of extensions by name\n");
   EXPECT_EQ(SaidWith("  extensions:\n"), "");
