@@ -193,6 +193,7 @@ bool Rig::Start(std::string* message) {
   if (swings) nodes = swung.Nodes();
   if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
   rod_ = std::make_unique<rod::Rod>(model);
+  rod_->SetTime(t);
   rod_->SetConfiguration(nodes);
   rod_->SetClamps(a_, b_);
   if (swings) {
@@ -219,7 +220,8 @@ bool Rig::Equilibrate(int step, std::string* message) {
   if (path_b_.moves()) b_ = path_b_.AtStep(step);
   if (!experiment_.load.file.empty()) SetLoads(step);
   rod_->SetClamps(a_, b_);
-  if (rod_->Equilibrate(load()).converged) return true;
+  // Slowly from step to step: what a friction carries at one is where the next begins.
+  if (rod_->EquilibrateWithHistory(load()).converged) return true;
   *message = "no static equilibrium found at step " + std::to_string(step);
   return false;
 }

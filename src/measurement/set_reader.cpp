@@ -44,6 +44,7 @@ void ReadSet(const YamlValue& root, MeasurementSet* set, Problems* problems) {
     format.ReportUnexpected("1, the version of the format that is read here");
   ReadCable(cable, set, problems);
   ReadExperiments(experiments, set, problems);
+  CheckClampLaws(set->cable, set->experiments, problems);
   if (set->experiments.empty() && cable.IsMap())
     CheckSpecimen(set->cable, set->cable_mark, problems);
 }
