@@ -24,15 +24,10 @@ Vec3<double> At(const ContactSite& site, const Vec3<double>& a, const Vec3<doubl
 }  // namespace
 
 std::vector<ContactSite> PlaceContactSites(const CableModel& model) {
-  const double h = model.length / model.elements;
-  const int per_element = static_cast<int>(std::ceil(h / (0.5 * model.diameter)));
+  const ContactSites all(model.length, model.diameter, model.elements);
   std::vector<ContactSite> sites;
   for (int e = 0; e < model.elements; ++e)
-    for (int k = 0; k < per_element; ++k) {
-      const double xi = static_cast<double>(k) / per_element;
-      const double s = (e + xi) * h;
-      if (s >= model.diameter && s <= model.length - model.diameter) sites.push_back({e, xi, s});
-    }
+    all.ForEach(e, [&](const ContactSite& site) { sites.push_back(site); });
   return sites;
 }
 

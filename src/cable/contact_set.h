@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "approaches.h"
+#include "contact_sites.h"
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/contact/tracker.h"
 #include "cosserat_cable/rod/load.h"
@@ -15,15 +16,7 @@
 
 namespace cosserat_cable {
 
-/// A point of the centreline between two nodes.
-struct ContactSite {
-  int element;
-  double xi;  ///< fraction of the element
-  double s;   ///< arc length [m]
-};
-
-/// The sites of a cable: nodes, and evenly spaced between them, no farther apart than the radius,
-/// and none within a diameter of a clamp, where the fitting is.
+/// The sites of a cable.
 std::vector<ContactSite> PlaceContactSites(const CableModel& model);
 
 /// For each element the index of its first site, and the number of sites at the end. The last

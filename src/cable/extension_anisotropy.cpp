@@ -30,7 +30,7 @@ void Check(const ExtensionKey& key, const CableKeys& cable, Problems* problems) 
 
 }  // namespace
 
-ExtensionLaw AnisotropyLaw() {
+ExtensionLaw AnisotropyExtension() {
   using Need = ExtensionField::Need;
   ExtensionLaw law;
   law.name = "anisotropy";

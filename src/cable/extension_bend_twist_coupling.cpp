@@ -30,7 +30,7 @@ void Check(const ExtensionKey& key, const CableKeys&, Problems* problems) {
 
 }  // namespace
 
-ExtensionLaw BendTwistCouplingLaw() {
+ExtensionLaw BendTwistCouplingExtension() {
   using Need = ExtensionField::Need;
   ExtensionLaw law;
   law.name = "bend_twist_coupling";

@@ -7,13 +7,13 @@ namespace {
 void Enter(const CableExtension& extension, rod::RodModel* rod) {
   ForEachClampAxis(extension, rod, [](rod::EndModel* end, int axis, double stiffness) {
     end->rotation[axis] = false;
-    end->stiffness[axis] = stiffness;
+    end->stiffness[axis] += stiffness;
   });
 }
 
 }  // namespace
 
-ExtensionLaw ClampComplianceLaw() {
+ExtensionLaw ClampComplianceExtension() {
   ExtensionLaw law;
   law.name = "clamp_compliance";
   law.shape = "clamps {a: {bending: ..., torsion: ...}, b: ...}";

@@ -17,12 +17,20 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 // there.
 void Check(const ExtensionKey& key, const CableKeys& cable, Problems* problems) {
   const std::vector<ExtensionKey>& all = *cable.extensions.value;
-  const auto springs = std::find_if(all.begin(), all.end(), [](const ExtensionKey& other) {
-    return other.extension.name == "clamp_compliance";
-  });
+  const auto gives_way = [&](const std::string& path) {
+    return std::any_of(all.begin(), all.end(), [&](const ExtensionKey& other) {
+      const std::string& name = other.extension.name;
+      const auto& marks = other.marks.front();
+      if (name == "clamp_compliance") return marks.count(path) > 0;
+      // These let the end turn in bending.
+      if (name != "clamp_friction" && name != "clamp_play") return false;
+      return path == "a.bending"
+                 ? marks.count("a.stiffness") + marks.count("a.spring") > 0
+                 : path == "b.bending" && marks.count("b.stiffness") + marks.count("b.spring") > 0;
+    });
+  };
   for (const auto& [path, mark] : key.marks.front()) {
-    if (springs != all.end() && springs->marks.front().count(path)) continue;
-    if (path == kDiscDashpot) continue;
+    if (path == kDiscDashpot || gives_way(path)) continue;
     problems->Add(mark,
                   "got a loss where the clamp is rigid, expected the stiffness with which it gives "
                   "way in clamp_compliance: " +
@@ -32,7 +40,7 @@ void Check(const ExtensionKey& key, const CableKeys& cable, Problems* problems) 
 
 }  // namespace
 
-ExtensionLaw ClampDampingLaw() {
+ExtensionLaw ClampDampingExtension() {
   ExtensionLaw law;
   law.name = "clamp_damping";
   law.shape = "clamps {a: {bending: ..., torsion: ...}, b: ...}";

@@ -25,4 +25,27 @@ void ForEachClampAxis(const CableExtension& extension, rod::RodModel* rod, const
   }
 }
 
+/// The numbers of one clamp, by their names in its map.
+class ClampNumbers {
+ public:
+  ClampNumbers(const std::map<std::string, double>& numbers, std::string clamp)
+      : numbers_(numbers), clamp_(std::move(clamp)) {}
+  double operator()(const std::string& name) const { return numbers_.at(clamp_ + "." + name); }
+
+ private:
+  const std::map<std::string, double>& numbers_;
+  std::string clamp_;
+};
+
+/// Calls `act(end, numbers)` for each clamp of which a map is given.
+template <class Act>
+void ForEachClamp(const CableExtension& extension, rod::RodModel* rod, const Act& act) {
+  const auto& numbers = extension.parts.front();
+  for (const auto& [clamp, end] : {std::make_pair(std::string("a"), &rod->a), {"b", &rod->b}}) {
+    const auto first = numbers.lower_bound(clamp + ".");
+    if (first != numbers.end() && first->first.rfind(clamp + ".", 0) == 0)
+      act(end, ClampNumbers(numbers, clamp));
+  }
+}
+
 }  // namespace cosserat_cable

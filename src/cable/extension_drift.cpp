@@ -34,7 +34,7 @@ rod::Section Drifted(const rod::Section& section, const Drift& drift, double par
   return now;
 }
 
-ExtensionLaw DriftLaw() {
+ExtensionLaw DriftExtension() {
   using Need = ExtensionField::Need;
   ExtensionLaw law;
   law.name = kName;

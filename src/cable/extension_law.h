@@ -1,11 +1,12 @@
 // What a law that a cable may have beside the rigidly clamped Kelvin-Voigt rod tells of itself.
 //
-// A new one is a file extension_some_name.cpp with a function SomeNameLaw(), which tells its keys
+// A new one is a file extension_some_name.cpp with a function SomeNameExtension(), which tells its keys
 // and what it does to the rod; its test; and its paragraph in config/cables/template.yaml. The
 // build finds it. Reading, writing, its numbers in the registry of parameters, and reporting
 // mistakes follow from the keys.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ namespace cosserat_cable {
 struct ExtensionField {
   enum class Need {
     kRequired,
-    kAny,      ///< may be left out; an entry without any of these would do nothing: a mistake
+    kAny,  ///< may be left out; an entry without any of these would do nothing: a mistake
+    kInGroup,  ///< required where its map of the entry is given; so is one such map at least
     kOptional  ///< may be left out
   };
   std::string path;  ///< "tau"; "a.bending" for one in a map of the entry
@@ -42,9 +44,12 @@ struct ExtensionLaw {
   std::vector<ExtensionField> fields;
   /// Reports what does not go with the rest of the cable; may be null.
   void (*check)(const ExtensionKey& key, const CableKeys& cable, Problems* problems) = nullptr;
-  /// Changes the rod of a cable with this extension. With all amplitudes at zero it changes
-  /// nothing.
+  /// Changes the rod of a cable with this extension, with all amplitudes at zero nothing; may be
+  /// null.
   void (*enter)(const CableExtension& extension, rod::RodModel* rod) = nullptr;
+  /// What acts on the rod from outside, null for nothing; may itself be null.
+  std::shared_ptr<const rod::Load> (*load)(const CableExtension& extension,
+                                           const CableModel& cable) = nullptr;
 };
 
 /// Every one that there is, by name. They are read, written and entered in this order.

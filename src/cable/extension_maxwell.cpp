@@ -21,7 +21,7 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 
 }  // namespace
 
-ExtensionLaw MaxwellLaw() {
+ExtensionLaw MaxwellExtension() {
   using Need = ExtensionField::Need;
   ExtensionLaw law;
   law.name = "maxwell";

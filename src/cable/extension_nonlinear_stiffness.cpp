@@ -15,7 +15,7 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 
 }  // namespace
 
-ExtensionLaw NonlinearStiffnessLaw() {
+ExtensionLaw NonlinearStiffnessExtension() {
   ExtensionLaw law;
   law.name = "nonlinear_stiffness";
   law.shape = "a change {change: ..., curvature: ...}";

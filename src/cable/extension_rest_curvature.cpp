@@ -11,7 +11,7 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 
 }  // namespace
 
-ExtensionLaw RestCurvatureLaw() {
+ExtensionLaw RestCurvatureExtension() {
   using Need = ExtensionField::Need;
   ExtensionLaw law;
   law.name = "rest_curvature";

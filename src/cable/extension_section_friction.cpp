@@ -15,7 +15,7 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 
 }  // namespace
 
-ExtensionLaw SectionFrictionLaw() {
+ExtensionLaw SectionFrictionExtension() {
   using Need = ExtensionField::Need;
   ExtensionLaw law;
   law.name = "section_friction";

@@ -57,7 +57,7 @@ void Enter(const CableExtension& extension, rod::RodModel* rod) {
 
 }  // namespace
 
-ExtensionLaw StructuralDampingLaw() {
+ExtensionLaw StructuralDampingExtension() {
   ExtensionLaw law;
   law.name = "structural_damping";
   law.shape = "a loss {loss_factor: ...}";

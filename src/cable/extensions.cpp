@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <stdexcept>
 
 #include "cosserat_cable/input/number_text.h"
@@ -29,9 +30,10 @@ class PartReader {
     bool any = false, any_needed = false;
     for (const ExtensionField& field : law.fields) {
       const bool given = Read(field);
-      if (field.need != ExtensionField::Need::kAny) continue;
+      if (field.need != ExtensionField::Need::kAny && field.need != ExtensionField::Need::kInGroup)
+        continue;
       any_needed = true;
-      any = any || given;
+      any = any || given || GroupGiven(field);
     }
     if (whole_ && any_needed && !any) value.Report("got nothing that acts, expected " + Any());
   }
@@ -46,7 +48,7 @@ class PartReader {
     if (field.pair) {
       found = ReadPair<double>(map, name, parse);
     } else {
-      const bool required = field.need == ExtensionField::Need::kRequired;
+      const bool required = field.need == ExtensionField::Need::kRequired || GroupGiven(field);
       const YamlValue value = required ? map->Required(name) : map->Optional(name);
       if (value.given()) found.mark = value.mark();
       if (const std::optional<double> number = parse(value)) found.value = {*number, *number};
@@ -61,11 +63,18 @@ class PartReader {
     return found.given();
   }
 
+  /// Whether a field that its map requires has that map.
+  bool GroupGiven(const ExtensionField& field) const {
+    return field.need == ExtensionField::Need::kInGroup &&
+           given_groups_.count(SplitPath(field.path).first) > 0;
+  }
+
   MapReader* Group(const std::string& name) {
     if (name.empty()) return &map_;
     std::unique_ptr<MapReader>& group = groups_[name];
     if (!group) {
       const YamlValue value = map_.Optional(name);
+      if (value.given()) given_groups_.insert(name);
       group = std::make_unique<MapReader>(value);
       whole_ = whole_ && (group->ok() || !value.given());
     }
@@ -74,15 +83,20 @@ class PartReader {
 
   std::string Any() const {
     std::string paths;
-    for (const ExtensionField& field : law_.fields)
-      if (field.need == ExtensionField::Need::kAny)
-        paths += (paths.empty() ? "at least one of " : ", ") + field.path;
+    std::set<std::string> named;
+    for (const ExtensionField& field : law_.fields) {
+      const bool whole_group = field.need == ExtensionField::Need::kInGroup;
+      if (field.need != ExtensionField::Need::kAny && !whole_group) continue;
+      const std::string path = whole_group ? SplitPath(field.path).first : field.path;
+      if (named.insert(path).second) paths += (paths.empty() ? "at least one of " : ", ") + path;
+    }
     return paths;
   }
 
   const ExtensionLaw& law_;
   MapReader map_;
   std::map<std::string, std::unique_ptr<MapReader>> groups_;
+  std::set<std::string> given_groups_;
   ExtensionKey* key_;
   bool whole_ = true;  // all is there that its keys stand in
 };
@@ -181,7 +195,12 @@ std::string WriteExtension(const CableExtension& extension) {
 }
 
 void EnterExtensions(const CableModel& cable, rod::RodModel* rod) {
-  for (const CableExtension& extension : cable.extensions) LawOf(extension).enter(extension, rod);
+  for (const CableExtension& extension : cable.extensions) {
+    const ExtensionLaw& law = LawOf(extension);
+    if (law.enter) law.enter(extension, rod);
+    if (!law.load) continue;
+    if (auto load = law.load(extension, cable)) rod->loads.push_back(std::move(load));
+  }
 }
 
 }  // namespace cosserat_cable

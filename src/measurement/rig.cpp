@@ -232,6 +232,7 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
   section_ = model.section;
   rod_ = std::make_unique<rod::Rod>(model);
+  rod_->SetTime(t);
   rod_->SetConfiguration(nodes);
   rod_->SetClamps(a_, b_);
   if (swings) {
@@ -266,7 +267,8 @@ bool Rig::Equilibrate(int step, std::string* message) {
   if (!experiment_.load.file.empty()) SetLoads(step);
   ApplyDrift(step);
   rod_->SetClamps(a_, b_);
-  if (rod_->Equilibrate(load()).converged) return true;
+  // Slowly from step to step: what a friction carries at one is where the next begins.
+  if (rod_->EquilibrateWithHistory(load()).converged) return true;
   *message = "no static equilibrium found at step " + std::to_string(step);
   return false;
 }

@@ -48,6 +48,7 @@ void ReadSet(const YamlValue& root, MeasurementSet* set, Problems* problems) {
   set->cable.faults = ReadFaults(faults);
   ReadExperiments(experiments, set, problems);
   CheckFaults(*set, problems);
+  CheckClampLaws(set->cable, set->experiments, problems);
   if (set->experiments.empty() && cable.IsMap())
     CheckSpecimen(set->cable, set->cable_mark, problems);
 }

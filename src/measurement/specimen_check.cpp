@@ -1,5 +1,6 @@
 #include "specimen_check.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "cosserat_cable/measurement/specimen.h"
@@ -22,6 +23,26 @@ void CheckSpecimen(CableKeys keys, const SourceMark& cable, Problems* problems) 
   }
   // Any damping will do to check the rest with.
   CompleteCable(WithoutUnknownDamping(std::move(keys)), cable, problems);
+}
+
+void CheckClampLaws(const CableKeys& keys, const std::vector<Experiment>& experiments,
+                    Problems* problems) {
+  if (!keys.extensions.value || experiments.empty()) return;
+  const bool clamped = std::any_of(experiments.begin(), experiments.end(), [](const Experiment& e) {
+    return e.b.kind == EndCondition::Kind::kClamp;
+  });
+  if (clamped) return;
+  for (const ExtensionKey& key : *keys.extensions.value) {
+    const std::string& name = key.extension.name;
+    if (name != "clamp_friction" && name != "clamp_play") continue;
+    const auto& marks = key.marks.front();
+    const auto first = marks.lower_bound("b.");
+    if (first == marks.end() || first->first.rfind("b.", 0) != 0) continue;
+    problems->Add(first->second, "got " + name +
+                                     " of clamp b, which no experiment has: end b is free or "
+                                     "carries a disc; expected none, or an experiment with a clamp "
+                                     "at b");
+  }
 }
 
 void RefuseVehicleKeys(const CableKeys& keys, Problems* problems) {

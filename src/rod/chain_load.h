@@ -2,7 +2,9 @@
 #pragma once
 
 #include "cosserat_cable/rod/load.h"
+#include "end_part.h"
 #include "lane_access.h"
+#include "load_power.h"
 #include "step_chain.h"
 
 namespace cosserat_cable::rod {
@@ -11,7 +13,10 @@ namespace cosserat_cable::rod {
 template <class T>
 class ChainView : public Centreline {
  public:
-  ChainView(const StepChain<T>* chain, int lane) : chain_(*chain), lane_(lane) {}
+  ChainView(const StepChain<T>* chain, int lane, double time, const EndParts* ends)
+      : chain_(*chain), lane_(lane), time_(time), ends_(*ends) {}
+  double time() const override { return time_; }
+  Motion clamp_a() const override { return ends_.a.clamp(); }
   int elements() const override { return chain_.layout.elements; }
   Vec3<double> position(int i) const override {
     const ChainLayout::Place at = chain_.layout.OfNode(i, lane_);
@@ -29,6 +34,8 @@ class ChainView : public Centreline {
  private:
   const StepChain<T>& chain_;
   int lane_;
+  double time_;
+  const EndParts& ends_;
 };
 
 /// Adds a load's forces to the right-hand side and, where wanted, its derivatives to the tangent.
@@ -61,6 +68,19 @@ class ChainSink : public LoadSink {
         Add(weight[0] * weight[1] * k[i][j], at.lane, &chain_.load_lower[at.entry][i][j]);
   }
 
+  void AddNodeForce(int node, const Vec3<double>& force, const Mat3<double>& by_position,
+                    const Mat3<double>& by_velocity) override {
+    const ChainLayout::Place at = chain_.layout.OfNode(node, lane_);
+    const double f[3] = {force.x, force.y, force.z};
+    for (int i = 0; i < 3; ++i) Add(f[i], at.lane, &chain_.load_rhs[at.entry][i]);
+    power_ += Dot(force, GetLane(chain_.nodes[at.entry].at.v, at.lane));
+    if (!tangent_) return;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j)
+        Add(-(by_position[i][j] + rate_factor_ * by_velocity[i][j]), at.lane,
+            &chain_.load_diagonal[at.entry].at(i, j));
+  }
+
   void AddMoment(int node, const Vec3<double>& moment) override {
     const ChainLayout::Place at = chain_.layout.OfNode(node, lane_);
     const double m[3] = {moment.x, moment.y, moment.z};
@@ -68,7 +88,10 @@ class ChainSink : public LoadSink {
     power_ += Dot(moment, GetLane(chain_.nodes[at.entry].at.omega, at.lane));
   }
 
-  double power() const { return power_; }  ///< of what was added [W]
+  void AddDissipation(double power) override { dissipation_ += power; }
+
+  double power() const { return power_; }              ///< of what was added [W]
+  double dissipation() const { return dissipation_; }  ///< its part that is lost [W], positive
 
  private:
   static void Add(double value, int lane, T* to) { SetLane(to, lane, GetLane(*to, lane) + value); }
@@ -77,15 +100,15 @@ class ChainSink : public LoadSink {
   int lane_;
   bool tangent_;
   double rate_factor_;
-  double power_ = 0;
+  double power_ = 0, dissipation_ = 0;
 };
 
-/// Returns the load's power [W].
 template <class T>
-double AddLoad(const Load& load, int lane, bool tangent, double rate_factor, StepChain<T>* chain) {
+LoadPower AddLoad(const Load& load, const ChainView<T>& rod, int lane, bool tangent,
+                  double rate_factor, StepChain<T>* chain) {
   ChainSink<T> sink(chain, lane, tangent, rate_factor);
-  load.Evaluate(ChainView<T>(chain, lane), &sink);
-  return sink.power();
+  load.Evaluate(rod, &sink);
+  return {sink.power() + sink.dissipation(), sink.dissipation()};
 }
 
 /// Forgets what loads have added.

@@ -89,7 +89,14 @@ void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const R
     MoveIn(l, &rod);
     steps[l].ends = &rod.ends;
     if (drives[l].a) {
-      steps[l] = {true, rod.model.length, drives[l].load, &rod.ends, rod.LawsOfStep(), {}, 0};
+      steps[l] = {true,
+                  rod.model.length,
+                  rod.Acting(drives[l].load),
+                  rod.w.time + dt,
+                  &rod.ends,
+                  rod.LawsOfStep(),
+                  {},
+                  {}};
       rod.BeginStep(c, *drives[l].a, *drives[l].b);
     }
     rod.FillLaw(l, &chain_, &dt_of_law_[l]);
@@ -118,7 +125,7 @@ void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const R
   for (int l = 0; l < count; ++l) {
     reports[l] = steps[l].report;
     if (reports[l].converged)
-      rods[l]->TakeStep(chain_, l);
+      rods[l]->TakeStep(chain_, l, dt);
     else if (steps[l].active)
       rods[l]->TakeBackStep();
   }

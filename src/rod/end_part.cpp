@@ -18,10 +18,11 @@ bool All(const std::array<bool, 3>& held) { return held[0] && held[1] && held[2]
 
 EndPart::EndPart(const EndModel& model)
     : model_(model),
+      laws_(model.laws),
       rigid_(model.clamped()),
       holds_(Any(model.translation) || Any(model.rotation)),
       holds_rotation_(Any(model.rotation)),
-      sprung_(model.stiffness.any() || model.damping.any()),
+      sprung_(model.stiffness.any() || model.damping.any() || !model.laws.empty()),
       active_(model.partly_held()) {
   // What is held needs no spring.
   for (int k = 0; k < 3; ++k)
@@ -63,25 +64,37 @@ void EndPart::ImposePose(Node<double>* node) const {
   node->q = q;
 }
 
-Vector3d EndPart::SpringMoment(const Node<double>& node) const {
-  if (!sprung_) return Vector3d::Zero();
-  const Relative of = Compare(node);
-  return -RightJacobianInverse(of.psi).transpose() *
-         (model_.stiffness.cwiseProduct(of.psi) + model_.damping.cwiseProduct(of.psi_dot));
+EndLaw::Resistance EndPart::Resist(const Relative& of, Memory memory) const {
+  return laws_.Sum(EndLaw::Resistance(), [&](const EndLaw& law) {
+    return memory == Memory::kRested ? law.ResistAtRest(of.psi) : law.Resist(of.psi, of.psi_dot);
+  });
 }
 
-Matrix3d EndPart::SpringTangent(const Node<double>& node, double rate_factor) const {
+Vector3d EndPart::SpringMoment(const Node<double>& node, Memory memory) const {
+  if (!sprung_) return Vector3d::Zero();
+  const Relative of = Compare(node);
+  Vector3d moment = model_.stiffness.cwiseProduct(of.psi) + model_.damping.cwiseProduct(of.psi_dot);
+  if (!laws_.empty()) moment += Resist(of, memory).moment;
+  return -RightJacobianInverse(of.psi).transpose() * moment;
+}
+
+Matrix3d EndPart::SpringTangent(const Node<double>& node, double rate_factor, Memory memory) const {
   if (!sprung_) return Matrix3d::Zero();
-  const Matrix3d J = RightJacobianInverse(Compare(node).psi);
+  const Relative of = Compare(node);
+  const Matrix3d J = RightJacobianInverse(of.psi);
   const Vector3d k = model_.stiffness + rate_factor * model_.damping;
-  return J.transpose() * k.asDiagonal() * J;
+  if (laws_.empty()) return J.transpose() * k.asDiagonal() * J;
+  const EndLaw::Resistance laws = Resist(of, memory);
+  const Matrix3d all = Matrix3d(k.asDiagonal()) + laws.by_psi + rate_factor * laws.by_rate;
+  return J.transpose() * all * J;
 }
 
 Matrix3d EndPart::StaticTangent(const Node<double>& node, const Vector3d& missing) const {
   // The moment -J^T m with m, that of springs and holding axes alike, against psi: how it turns at
   // constant m, by a difference of fourth order, and how m grows.
   constexpr double kStep = 1e-3;  // [rad]
-  const Vector3d psi = Compare(node).psi;
+  const Relative of = Compare(node);
+  const Vector3d& psi = of.psi;
   const Matrix3d J = RightJacobianInverse(psi);
   const Vector3d m = J.transpose().inverse() * missing;
   Matrix3d turning;
@@ -93,23 +106,49 @@ Matrix3d EndPart::StaticTangent(const Node<double>& node, const Vector3d& missin
     turning.col(k) =
         (8 * (at(kStep) - at(-kStep)) - (at(2 * kStep) - at(-2 * kStep))) / (12 * kStep);
   }
-  return 0.5 * (turning + turning.transpose()) + J.transpose() * model_.stiffness.asDiagonal() * J;
+  Matrix3d tangent =
+      0.5 * (turning + turning.transpose()) + J.transpose() * model_.stiffness.asDiagonal() * J;
+  if (!laws_.empty()) tangent += J.transpose() * Resist(of, Memory::kKept).by_psi * J;
+  return tangent;
 }
 
 Matrix3d EndPart::RotationByPsi(const Node<double>& node) const {
   return RightJacobianInverse(Compare(node).psi).inverse();
 }
 
+double EndPart::SpringPotential(const Node<double>& node, Memory memory) const {
+  if (!sprung_) return 0;
+  const Vector3d psi = Compare(node).psi;
+  return laws_.Sum(0.5 * psi.dot(model_.stiffness.cwiseProduct(psi)), [&](const EndLaw& law) {
+    return memory == Memory::kRested ? law.PotentialAtRest(psi) : law.Potential(psi);
+  });
+}
+
 double EndPart::SpringEnergy(const Node<double>& node) const {
   if (!sprung_) return 0;
   const Vector3d psi = Compare(node).psi;
-  return 0.5 * psi.dot(model_.stiffness.cwiseProduct(psi));
+  return laws_.Sum(0.5 * psi.dot(model_.stiffness.cwiseProduct(psi)),
+                   [&](const EndLaw& law) { return law.Energy(psi); });
 }
 
 double EndPart::SpringDissipationRate(const Node<double>& node) const {
   if (!sprung_) return 0;
-  const Vector3d psi_dot = Compare(node).psi_dot;
-  return psi_dot.dot(model_.damping.cwiseProduct(psi_dot));
+  const Relative of = Compare(node);
+  return laws_.Sum(of.psi_dot.dot(model_.damping.cwiseProduct(of.psi_dot)),
+                   [&](const EndLaw& law) { return law.DissipationRate(of.psi, of.psi_dot); });
+}
+
+double EndPart::CommitLaws(const Node<double>& node, Memory memory) {
+  if (laws_.empty()) return 0;
+  const Vector3d psi = Compare(node).psi;
+  double lost = 0;
+  laws_.ForEach([&](EndLaw* law) {
+    if (memory == Memory::kRested)
+      law->Rest(psi);
+    else
+      lost += law->Commit(psi);
+  });
+  return lost;
 }
 
 EndPart::Matrix6 EndPart::FreeProjector(const Node<double>& node) const {

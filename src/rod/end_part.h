@@ -7,6 +7,7 @@
 #include "cosserat_cable/math/pose.h"
 #include "cosserat_cable/rod/end_model.h"
 #include "element.h"
+#include "end_laws.h"
 #include "prescribed_motion.h"
 
 namespace cosserat_cable::rod {
@@ -35,19 +36,31 @@ class EndPart {
   /// Puts what is held of the node's pose where the clamp has it.
   void ImposePose(Node<double>* node) const;
 
-  /// Moment of the springs on the node [N m], section frame.
-  Eigen::Vector3d SpringMoment(const Node<double>& node) const;
+  /// What laws with internal variables go by.
+  enum class Memory {
+    kKept,   ///< where the last step has left them
+    kRested  ///< as after a long rest wherever the section is
+  };
+  /// Moment of springs, dashpots and laws on the node [N m], section frame.
+  Eigen::Vector3d SpringMoment(const Node<double>& node, Memory memory = Memory::kKept) const;
   /// Minus its derivative by the section's rotation, where d(rate)/d(rotation) is `rate_factor`
   /// [1/s]: symmetric, not negative.
-  Eigen::Matrix3d SpringTangent(const Node<double>& node, double rate_factor) const;
+  Eigen::Matrix3d SpringTangent(const Node<double>& node, double rate_factor,
+                                Memory memory = Memory::kKept) const;
   /// Second derivative of the potential of what the clamp exerts at rest, symmetric, where it
   /// balances a moment of `missing` [N m] (section frame) on the section: what SpringTangent leaves
-  /// out, because it is not positive, included.
+  /// out, because it is not positive, included. Laws give their tangent at the present state.
   Eigen::Matrix3d StaticTangent(const Node<double>& node, const Eigen::Vector3d& missing) const;
   /// Rotation of the section (section frame) by increment of psi, whose components are held or not.
   Eigen::Matrix3d RotationByPsi(const Node<double>& node) const;
-  double SpringEnergy(const Node<double>& node) const;           ///< [J]
-  double SpringDissipationRate(const Node<double>& node) const;  ///< [W]
+  /// Of which SpringMoment at rest is minus the derivative [J].
+  double SpringPotential(const Node<double>& node, Memory memory) const;
+  double SpringEnergy(const Node<double>& node) const;           ///< stored [J]
+  double SpringDissipationRate(const Node<double>& node) const;  ///< by the rate [W]
+
+  /// The internal variables of laws take the state at a step's end: returns what they have turned
+  /// into heat [J]. With a rested memory: that after a long rest.
+  double CommitLaws(const Node<double>& node, Memory memory);
 
   /// Orthogonal projector onto the displacements and rotations (section frame) that are free.
   Matrix6 FreeProjector(const Node<double>& node) const;
@@ -65,8 +78,10 @@ class EndPart {
     Eigen::Vector3d psi_dot;  // [rad/s]
   };
   Relative Compare(const Node<double>& node) const;
+  EndLaw::Resistance Resist(const Relative& of, Memory memory) const;
 
   EndModel model_;
+  EndLaws laws_;
   bool rigid_, holds_, holds_rotation_, sprung_, active_;
   PrescribedMotion clamp_;
 };

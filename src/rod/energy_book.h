@@ -7,9 +7,11 @@ namespace cosserat_cable::rod {
 
 class EnergyBook {
  public:
-  /// What flows at one instant [W].
+  /// What flows at one instant [W], and what was lost since the one before regardless of how fast
+  /// [J], as by friction.
   struct Flow {
     double ends = 0, loads = 0, dissipation = 0;
+    double lost = 0;
   };
 
   /// The next step starts a new account.
@@ -30,12 +32,11 @@ class EnergyBook {
     open_ = true;
     waits_ = false;
   }
-  /// `lost` [J]: what has been dissipated beside the flow, as by friction, which knows no rate.
-  void Add(double dt, const Flow& flow, double lost) {
+  void Add(double dt, const Flow& flow) {
     ends_.Add(dt, flow.ends);
     loads_.Add(dt, flow.loads);
     dissipation_.Add(dt, flow.dissipation);
-    lost_ += lost;
+    lost_ += flow.lost;
   }
   /// What a change of the section puts in [J].
   void AddSectionChange(double work) { by_section_ += work; }

@@ -51,7 +51,7 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
   const int first = first_free(), last = last_free();
   const double bending = std::min(w.law.C_M.x, w.law.C_M.y);
 
-  const LaneView<double> view(&w, 0);
+  const LaneView<double> view(&w, &ends);
   const double unstrained_noise = kStrainNoise * kStrainNoise * w.law.C_F.z * model.length;
   double noise = 0;
   const auto energy = [&] {
@@ -83,8 +83,8 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
     for (;;) {
       w.rhs = internal;
       AssembleStatics();
-      if (load) AddLoad(*load, 0, true, 0.0, &w);
-      ConstrainEnds(ends, &w);
+      if (load) AddLoad(*load, ends, true, 0.0, &w);
+      ConstrainEnds(ends, memory_, &w);
       for (int i = first; i <= last; ++i)
         for (int k = 0; k < 3; ++k) {
           w.system.diagonal(i)[k][k] += shift * translation_scale;
@@ -149,14 +149,15 @@ SolveReport Rod::Impl::Minimise(double tolerance, int max_iterations, const Load
   return report;
 }
 
-void Rod::Impl::BeginStatics() {
+void Rod::Impl::BeginStatics(EndPart::Memory memory) {
   MoveOut();
+  memory_ = has_history_ ? memory : EndPart::Memory::kRested;
   for (NodeState& n : w.node) n.v = n.omega = V3{};
   for (EndPart* end : {&ends.a, &ends.b}) end->Start(Motion::Resting(end->clamp().X));
   w.trial = w.node;
   ImposeEnds(ends, &w);
   PrepareStatics();
-  laws.Reset();
+  if (memory == EndPart::Memory::kRested) laws.Reset();
 }
 
 void Rod::Impl::Soften(const Load* load, SolveReport* report) {
@@ -194,7 +195,7 @@ void Rod::Impl::FinishStatics(const Load* load, SolveReport* report) {
     if (UpdateTensions() < kTensionTolerance) break;
   }
   // At the clamps, what is left of the forces is what they must supply.
-  if (load) AddLoad(*load, 0, false, 0.0, &w);
+  if (load) AddLoad(*load, ends, false, 0.0, &w);
   TakeRest();
   w.node = w.trial;
   for (auto* rates : {&w.rate, &w.algorithm, &w.mean})
@@ -202,23 +203,27 @@ void Rod::Impl::FinishStatics(const Load* load, SolveReport* report) {
   w.persistence = {};
 }
 
-SolveReport Rod::Equilibrate(const Load* load) {
+SolveReport Rod::Impl::FindRest(EndPart::Memory memory, bool from_afar, const Load* given) {
+  const Load* load = ActingAtRest(given);
   SolveReport report;
-  SectionLaws before = impl_->laws;
-  impl_->BeginStatics();
-  impl_->Soften(load, &report);
-  impl_->FinishStatics(load, &report);
-  if (!report.converged) impl_->laws = std::move(before);
+  SectionLaws before = laws;
+  BeginStatics(memory);
+  if (from_afar) Soften(load, &report);
+  FinishStatics(load, &report);
+  if (!report.converged) laws = std::move(before);
   return report;
 }
 
+SolveReport Rod::Equilibrate(const Load* load) {
+  return impl_->FindRest(EndPart::Memory::kRested, true, load);
+}
+
 SolveReport Rod::EquilibrateNearby(const Load* load) {
-  SolveReport report;
-  SectionLaws before = impl_->laws;
-  impl_->BeginStatics();
-  impl_->FinishStatics(load, &report);
-  if (!report.converged) impl_->laws = std::move(before);
-  return report;
+  return impl_->FindRest(EndPart::Memory::kRested, false, load);
+}
+
+SolveReport Rod::EquilibrateWithHistory(const Load* load) {
+  return impl_->FindRest(EndPart::Memory::kKept, true, load);
 }
 
 }  // namespace cosserat_cable::rod

@@ -3,15 +3,19 @@
 
 #include "cosserat_cable/math/lanes.h"
 #include "cosserat_cable/rod/load.h"
+#include "end_part.h"
 #include "step_workspace.h"
 
 namespace cosserat_cable::rod {
 
-/// The iterate of the rod in one lane.
+/// The iterate of the rod.
 template <class T>
 class LaneView : public Centreline {
  public:
-  LaneView(const StepWorkspace<T>* workspace, int lane) : workspace_(*workspace), lane_(lane) {}
+  LaneView(const StepWorkspace<T>* workspace, const EndParts* ends)
+      : workspace_(*workspace), ends_(*ends) {}
+  double time() const override { return workspace_.time; }
+  Motion clamp_a() const override { return ends_.a.clamp(); }
   int elements() const override { return workspace_.count - 1; }
   Vec3<double> position(int i) const override { return workspace_.trial[i].r; }
   Vec3<double> velocity(int i) const override { return workspace_.trial[i].v; }
@@ -19,7 +23,7 @@ class LaneView : public Centreline {
 
  private:
   const StepWorkspace<T>& workspace_;
-  int lane_;
+  const EndParts& ends_;
 };
 
 /// Adds a load's forces to the right-hand side and, where wanted, its derivatives to the tangent.
@@ -43,10 +47,19 @@ class LaneSink : public LoadSink {
     AddBlock(weight[0] * weight[1], k, &workspace_.system.lower(element));
   }
 
+  void AddNodeForce(int node, const Vec3<double>& force, const Mat3<double>& by_position,
+                    const Mat3<double>& by_velocity) override {
+    const double f[3] = {force.x, force.y, force.z};
+    for (int k = 0; k < 3; ++k) Add(f[k], &workspace_.rhs[node][k]);
+    if (!tangent_) return;
+    AddBlock(-1.0, by_position + rate_factor_ * by_velocity, &workspace_.system.diagonal(node));
+  }
+
   void AddMoment(int node, const Vec3<double>& moment) override {
     const double m[3] = {moment.x, moment.y, moment.z};
     for (int k = 0; k < 3; ++k) Add(m[k], &workspace_.rhs[node][3 + k]);
   }
+  void AddDissipation(double) override {}  // statics
 
  private:
   void Add(double value, T* to) { SetLane(to, lane_, GetLane(*to, lane_) + value); }
@@ -62,9 +75,10 @@ class LaneSink : public LoadSink {
 };
 
 template <class T>
-void AddLoad(const Load& load, int lane, bool tangent, double rate_factor, StepWorkspace<T>* w) {
-  LaneSink<T> sink(w, lane, tangent, rate_factor);
-  load.Evaluate(LaneView<T>(w, lane), &sink);
+void AddLoad(const Load& load, const EndParts& ends, bool tangent, double rate_factor,
+             StepWorkspace<T>* w) {
+  LaneSink<T> sink(w, 0, tangent, rate_factor);
+  load.Evaluate(LaneView<T>(w, &ends), &sink);
 }
 
 }  // namespace cosserat_cable::rod

@@ -109,7 +109,7 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   // Not AssembleTangent's, which serves Newton's iteration and has the second order in the
   // elements' angles only: in a natural frequency its error would be seen (1e-3 at 40 elements).
   EvaluateForces(w);
-  if (load) AddLoad(*load, 0, false, 0.0, w);
+  if (load) AddLoad(*load, ends, false, 0.0, w);
   const Vec6<double> missing[] = {w->rhs.front(), w->rhs.back()};
   const double h = w->law.h;
   material.assign(kComponents, SymmetricBands(w->count));
@@ -152,7 +152,7 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   if (load) {
     const auto of_load = [&](double rate_factor) {
       ClearTangent(w);
-      AddLoad(*load, 0, true, rate_factor, w);
+      AddLoad(*load, ends, true, rate_factor, w);
       return SymmetricBands::Of(&w->system, w->count);
     };
     const SymmetricBands at_rest = of_load(0.0);

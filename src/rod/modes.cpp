@@ -200,7 +200,9 @@ std::vector<bool> HeldUnknowns(const RodModel& model, int unknowns) {
 std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
   Rod copy(rod);
   Rod::Impl& m = *copy.impl_;
+  m.BeginHistory();
   for (NodeState& n : m.w.node) n.v = n.omega = V3{};
+  for (EndPart* end : {&m.ends.a, &m.ends.b}) end->Start(Motion::Resting(end->clamp().X));
   m.w.trial = m.w.node;
   m.PrepareStatics();
   const int unknowns = 6 * m.w.count;
@@ -211,7 +213,8 @@ std::vector<Mode> FindModes(const Rod& rod, int count, const Load* load) {
     for (int e = 0; e < m.model.elements; ++e)
       tangents.push_back(m.laws.SmallTangent(e, m.StaticStrain(m.StaticElement(e))));
   }
-  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, tangents, held, load,
+  const LinearisedRod linear(m.Moduli(), m.joints, m.ends, m.stiffening, tangents, held,
+                             m.Acting(load),
                              &m.w);
   const Directions directions(rod, linear);
 

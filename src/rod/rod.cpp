@@ -46,6 +46,7 @@ void Rod::SetConfiguration(const std::vector<Pose>& nodes) {
   m.ends.a.Start(Motion::Resting(nodes.front()));
   m.ends.b.Start(Motion::Resting(nodes.back()));
   m.TakeRest();
+  m.ForgetHistory();
 }
 
 void Rod::SetClamps(const Pose& a, const Pose& b) {
@@ -106,6 +107,10 @@ void Rod::SetMotion(const std::vector<Motion>& nodes, const Motion& a, const Mot
   m.ends.b.Start(b);
   m.energy.Wait();  // while the forces are still those of statics
 }
+
+void Rod::SetTime(double time) { impl_->w.time = time; }
+double Rod::time() const { return impl_->w.time; }
+Motion Rod::clamp_a() const { return impl_->ends.a.clamp(); }
 
 SolveReport Rod::Step(double dt, const Pose& a, const Pose& b, const Load* load) {
   Impl* m = impl_.get();

@@ -18,9 +18,10 @@ BeamColumn<double> Backwards(const BeamColumn<double>& column) {
 }  // namespace
 
 void Rod::Impl::BeginStep(const StepCoefficients& c, const Pose& a, const Pose& b) {
+  BeginHistory();
   if (!energy.open()) {
     Fetch();
-    energy.Open({EndPower(), 0, 0}, StoredEnergy());
+    energy.Open({EndPower(), 0, 0, 0}, StoredEnergy());
   }
   if (c.dt != dt_of_law_ || !branches.empty()) law_of_step_ = LawOfStep(c.dt);
   laws.BeginStep(c.dt);
@@ -215,12 +216,15 @@ double Rod::Impl::CommitBranches(const StepChain<T>& chain, int rod_lane) {
 }
 
 template <class T>
-void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
+void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane, double dt) {
   const ChainLayout& layout = chain.layout;
   const ChainLayout::Place front = layout.OfNode(0, rod_lane);
   const ChainLayout::Place back = layout.OfNode(model.elements, rod_lane);
   w.node.front() = GetLane(chain.state[front.entry].at, front.lane);
   w.node.back() = GetLane(chain.state[back.entry].at, back.lane);
+  w.time += dt;
+  lost_in_ends_ = ends.a.CommitLaws(w.node.front(), EndPart::Memory::kKept) +
+                  ends.b.CommitLaws(w.node.back(), EndPart::Memory::kKept);
   missing_a = GetLane(chain.missing_first[front.entry], front.lane);
   missing_b = GetLane(layout.halves ? chain.missing_first[0] : chain.missing_last, back.lane);
   if (chain.loaded)
@@ -242,7 +246,7 @@ void Rod::Impl::TakeStep(const StepChain<T>& chain, int rod_lane) {
   template void Rod::Impl::FillBranches(int, StepChain<T>*) const;                               \
   template void Rod::Impl::HoldInChain(int, StepChain<T>*) const;                                \
   template void Rod::Impl::TakeState(const StepChain<T>&, int);                                  \
-  template void Rod::Impl::TakeStep(const StepChain<T>&, int);
+  template void Rod::Impl::TakeStep(const StepChain<T>&, int, double);
 COSSERAT_CABLE_INSTANTIATE(WideLanes)
 COSSERAT_CABLE_INSTANTIATE(Lanes)
 COSSERAT_CABLE_INSTANTIATE(LanePair)

@@ -14,7 +14,8 @@ double Rod::Impl::StaticEnergy() const {
         h * StiffeningEnergy(e, now.gamma, now.kappa);
     if (!laws.empty()) energy += h * laws.Potential(e, StrainOf(now));
   }
-  return energy + ends.a.SpringEnergy(w.trial.front()) + ends.b.SpringEnergy(w.trial.back());
+  return energy + ends.a.SpringPotential(w.trial.front(), memory_) +
+         ends.b.SpringPotential(w.trial.back(), memory_);
 }
 
 double Rod::Impl::StiffeningEnergy(int element, const V3& gamma, const V3& kappa) const {
@@ -65,12 +66,14 @@ double Rod::Impl::EndPower() const {
   return power(ends.a, w.node.front(), missing_a) + power(ends.b, w.node.back(), missing_b);
 }
 
-void Rod::Impl::AccountForStep(double dt, double load_power) {
+void Rod::Impl::AccountForStep(double dt, const LoadPower& loads) {
   const double in_ends =
       ends.a.SpringDissipationRate(w.node.front()) + ends.b.SpringDissipationRate(w.node.back());
-  const EnergyBook::Flow flow = {EndPower(), load_power, dissipation_rate_ + in_ends};
+  const EnergyBook::Flow flow = {EndPower(), loads.work,
+                                 dissipation_rate_ + in_ends + loads.dissipation,
+                                 lost_in_step_ + lost_in_ends_};
   if (!energy.waits()) {
-    energy.Add(dt, flow, lost_in_step_);
+    energy.Add(dt, flow);
     return;
   }
   Fetch();

@@ -30,6 +30,14 @@ std::vector<Quat<double>> JointsByNode(const RodModel& model) {
   return joints;
 }
 
+/// Puts the load that is given in its place, the last.
+const Load* With(const Load* given, LoadSum* sum) {
+  if (sum->loads.empty()) return given;
+  static const LoadSum none;
+  sum->loads.back() = given ? given : &none;
+  return sum;
+}
+
 }  // namespace
 
 Rod::Impl::Impl(const RodModel& m)
@@ -78,6 +86,12 @@ Rod::Impl::Impl(const RodModel& m)
     }
   }
   w.gravity = ToSmall(m.gravity);
+  for (const auto& load : m.loads) {
+    acting_.loads.push_back(load.get());
+    if (load->ActsAtRest()) acting_at_rest_.loads.push_back(load.get());
+  }
+  for (LoadSum* sum : {&acting_, &acting_at_rest_})
+    if (!sum->loads.empty()) sum->loads.push_back(nullptr);  // room for the one that is given
   PrepareStatics();
 }
 
@@ -113,6 +127,16 @@ void Rod::Impl::SetSection(const Section& section) {
   dt_of_law_ = 0;
   if (address.home) address.home->ForgetLaw(address.lane);
   if (counted) energy.AddSectionChange(ElasticEnergy() - before);
+}
+
+const Load* Rod::Impl::Acting(const Load* given) { return With(given, &acting_); }
+const Load* Rod::Impl::ActingAtRest(const Load* given) { return With(given, &acting_at_rest_); }
+
+void Rod::Impl::BeginHistory() {
+  if (has_history_) return;
+  has_history_ = true;
+  ends.a.CommitLaws(w.node.front(), EndPart::Memory::kRested);
+  ends.b.CommitLaws(w.node.back(), EndPart::Memory::kRested);
 }
 
 void Rod::Impl::PrepareStatics() {
@@ -217,13 +241,19 @@ void Rod::Impl::TakeRest() {
     const ElementStrain strain = StrainOf(stress_[e]);
     shear[e] = {shear1.Rest(strain.gamma.x()), shear2.Rest(strain.gamma.y())};
     branches.Rest(e, strain);
-    laws.Rest(e, strain);
+    if (memory_ == EndPart::Memory::kRested)
+      laws.Rest(e, strain);
+    else
+      laws.Commit(e, strain);
     if (!has_branch_stress()) continue;
     branch_stress_[e].F = relaxed.F.cwiseProduct(strain.gamma);
     branch_stress_[e].M = relaxed.M.cwiseProduct(strain.kappa);
     if (!laws.empty()) branch_stress_[e] += Split(laws.Evaluate(e, strain, 0).stress);
   }
   dissipation_rate_ = 0;
+  ends.a.CommitLaws(w.trial.front(), memory_);
+  ends.b.CommitLaws(w.trial.back(), memory_);
+  has_history_ = true;
   energy.Close();
 }
 

@@ -10,6 +10,7 @@
 #include "cosserat_cable/rod/rod.h"
 #include "end_part.h"
 #include "energy_book.h"
+#include "load_power.h"
 #include "rod_home.h"
 #include "section_branches.h"
 #include "section_laws.h"
@@ -62,6 +63,13 @@ struct Rod::Impl {
 
   /// See Rod::SetSection.
   void SetSection(const Section& section);
+  /// The model's loads and the one given, if any; likewise those that act at rest. Valid until the
+  /// next call.
+  const Load* Acting(const Load* given);
+  const Load* ActingAtRest(const Load* given);
+  /// The laws of the ends have no past: they take the state that the next step starts from.
+  void ForgetHistory() { has_history_ = false; }
+  void BeginHistory();
 
   void PrepareStatics();
   /// The law at `tension`, for statics.
@@ -80,8 +88,10 @@ struct Rod::Impl {
   /// Minimises the energy of the rod with the law in `w` by moving its iterate, until a correction
   /// is below `tolerance`.
   SolveReport Minimise(double tolerance, int max_iterations, const Load* load);
+  /// Static equilibrium; `from_afar`: by way of rods that stretch more easily.
+  SolveReport FindRest(EndPart::Memory memory, bool from_afar, const Load* given);
   /// At rest, with the static law; its iterate becomes the state once it is in equilibrium.
-  void BeginStatics();
+  void BeginStatics(EndPart::Memory memory);
   void FinishStatics(const Load* load, SolveReport* report);
   /// Brings the iterate near its equilibrium by way of rods that stretch more easily.
   void Soften(const Load* load, SolveReport* report);
@@ -112,12 +122,12 @@ struct Rod::Impl {
   /// The clamped ends into the chain's first iterate.
   template <class T>
   void HoldInChain(int lane, StepChain<T>* chain) const;
-  /// Takes over what a chain found in a step: end forces, losses, and the internal variables of
-  /// branches. The state stays there.
+  /// Takes over what a chain found in a step of `dt` [s]: end forces, losses, and the internal
+  /// variables of branches and ends. The state stays there.
   template <class T>
-  void TakeStep(const StepChain<T>& chain, int lane);
-  /// Adds the step of `dt` [s] that was taken to the energy balance. `load_power` [W]: at its end.
-  void AccountForStep(double dt, double load_power);
+  void TakeStep(const StepChain<T>& chain, int lane, double dt);
+  /// Adds the step of `dt` [s] that was taken to the energy balance. `loads`: at its end.
+  void AccountForStep(double dt, const LoadPower& loads);
   /// The state that a chain has, and stresses from its strains.
   template <class T>
   void TakeState(const StepChain<T>& chain, int lane);
@@ -158,6 +168,10 @@ struct Rod::Impl {
   PrescribedMotion a_before_, b_before_;     // clamps at its start
   double dissipation_rate_ = 0;              // of the sections [W], their laws left out:
   double lost_in_step_ = 0;                  // what those have dissipated in the last step [J]
+  double lost_in_ends_ = 0;                  // likewise, the laws of the ends
+  bool has_history_ = false;
+  EndPart::Memory memory_ = EndPart::Memory::kRested;  // of all laws in statics
+  LoadSum acting_, acting_at_rest_;
   std::vector<ElementStress> stress_;        // by element
   std::vector<SectionValue> branch_stress_;  // the branches' and laws' part of it
 };

@@ -13,7 +13,7 @@ inline void ImposeEnds(const EndParts& ends, StepWorkspace<double>* w) {
 }
 
 /// Adds the clamps' springs and takes what is held out of the system.
-inline void ConstrainEnds(const EndParts& ends, StepWorkspace<double>* w) {
+inline void ConstrainEnds(const EndParts& ends, EndPart::Memory memory, StepWorkspace<double>* w) {
   using Matrix6 = EndPart::Matrix6;
   const auto as_matrix = [](Block6<double>* block) {
     return Eigen::Map<Eigen::Matrix<double, 6, 6, Eigen::RowMajor>>(&(*block)[0][0]);
@@ -23,12 +23,12 @@ inline void ConstrainEnds(const EndParts& ends, StepWorkspace<double>* w) {
     const Node<double>& node = w->trial[i];
     const Matrix6 free = end.FreeProjector(node);
     Eigen::Map<Eigen::Matrix<double, 6, 1>> rhs(w->rhs[i].v);
-    rhs.tail<3>() += end.SpringMoment(node);
+    rhs.tail<3>() += end.SpringMoment(node, memory);
     rhs = (free * rhs).eval();
     // Only the lower triangle of a diagonal block is kept.
     auto diagonal = as_matrix(&w->system.diagonal(i));
     Matrix6 block = diagonal.selfadjointView<Eigen::Lower>();
-    block.bottomRightCorner<3, 3>() += end.SpringTangent(node, 0);
+    block.bottomRightCorner<3, 3>() += end.SpringTangent(node, 0, memory);
     const double scale = block.diagonal().cwiseAbs().maxCoeff();
     diagonal = free * block * free + scale * (Matrix6::Identity() - free);
     if (at_b) {

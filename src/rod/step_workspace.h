@@ -32,6 +32,7 @@ struct StepWorkspace {
   ElementLaw<T> law;             // of the step or of statics, whichever was prepared last
 
   // The last accepted instant.
+  double time = 0;  // [s]
   std::vector<Node<T>> node;
   std::vector<NodeRates<T>> rate;       // true accelerations
   std::vector<NodeRates<T>> algorithm;  // generalised-alpha's own

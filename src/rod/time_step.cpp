@@ -63,7 +63,9 @@ void SolveStep(const StepCoefficients& c, StepChain<T>* chain, StepOfRod* rods) 
       if (!chain->loaded) ClearLoads(chain);
       chain->loaded = true;
       if (rods[r].load)
-        rods[r].load_power = AddLoad(*rods[r].load, r, tangent, c.velocity_by_increment, chain);
+        rods[r].load_power =
+            AddLoad(*rods[r].load, ChainView<T>(chain, r, rods[r].time, rods[r].ends), r, tangent,
+                    c.velocity_by_increment, chain);
       if (ends) AddEnds(c, *rods[r].ends, r, tangent, chain);
     }
   };

@@ -5,6 +5,7 @@
 #include "chain_solver.h"
 #include "cosserat_cable/rod/rod.h"
 #include "end_part.h"
+#include "load_power.h"
 
 namespace cosserat_cable::rod {
 
@@ -13,10 +14,11 @@ struct StepOfRod {
   bool active = false;  ///< others are left out
   double length = 1;    ///< [m]
   const Load* load = nullptr;
+  double time = 0;                 ///< at the step's end [s]
   const EndParts* ends = nullptr;  ///< of every rod in the chain
   LawsOfRod laws;
-  SolveReport report;     ///< out
-  double load_power = 0;  ///< out: of `load` at the step's end [W]
+  SolveReport report;    ///< out
+  LoadPower load_power;  ///< out: of `load` at the step's end
 };
 
 /// Finds the iterate in which all forces balance, for each rod of the chain. Expects the first

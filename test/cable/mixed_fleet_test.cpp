@@ -70,6 +70,43 @@ void AddSoftClamps(Random* random, CableModel* model) {
   if (!dashpots.parts[0].empty()) model->extensions.push_back(dashpots);
 }
 
+/// Friction or play in the clamps.
+CableExtension LooseClamps(Random* random) {
+  const bool friction = random->Chance(0.5);
+  CableExtension extension{friction ? "clamp_friction" : "clamp_play", {{}}};
+  for (const std::string clamp : {"a.", "b."}) {
+    auto& numbers = extension.parts[0];
+    if (clamp == "b." && random->Chance(0.5)) continue;
+    if (friction) {
+      numbers[clamp + "stuck"] = random->Decade(-1, 1);
+      numbers[clamp + "slip_moment"] = random->Decade(-4, -2);
+      numbers[clamp + "spring"] = random->Decade(-1, 1);
+    } else {
+      numbers[clamp + "gap"] = random->Decade(-3, -1);
+      numbers[clamp + "stiffness"] = random->Decade(-1, 1);
+    }
+  }
+  return extension;
+}
+
+void AddOutside(double length, Random* random, CableModel* model) {
+  if (random->Chance(0.3))
+    model->extensions.push_back({"air_drag", {{{"Cd", random->Decade(0, 2)}}}});
+  if (random->Chance(0.3))
+    model->extensions.push_back({"external_damping", {{{"rate", random->Decade(-1, 2)}}}});
+  if (random->Chance(0.2))
+    model->extensions.push_back(
+        {"added_mass", {{{"s", random->Between(0, length)}, {"mass", 0.005}}}});
+  if (random->Chance(0.3))
+    model->extensions.push_back({"contact",
+                                 {{{"peg.x", random->Between(-0.03, 0.03)},
+                                   {"peg.y", -0.1},
+                                   {"peg.z", random->Between(0.08, 0.12)},
+                                   {"peg.azimuth", 0},
+                                   {"peg.elevation", 0},
+                                   {"peg.radius", 0.005}}}});
+}
+
 Case RandomCase(Random* random) {
   constexpr int kElements[] = {8, 12, 20};
   Case c;
@@ -81,6 +118,8 @@ Case RandomCase(Random* random) {
     c.model.masses.push_back({random->Between(0, c.model.length), random->Between(0.001, 0.02)});
   if (random->Chance(0.5)) c.model.extensions.push_back(Relaxation(EI, random));
   if (random->Chance(0.3)) AddSoftClamps(random, &c.model);
+  if (random->Chance(0.3)) c.model.extensions.push_back(LooseClamps(random));
+  AddOutside(c.model.length, random, &c.model);
   c.frequency = random->Between(50, 150);
   c.amplitude = random->Between(0.002, 0.01);
   if (random->Chance(0.2)) c.jump = random->Whole(1, kSteps);

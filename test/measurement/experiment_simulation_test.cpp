@@ -157,6 +157,67 @@ TEST(ExperimentSimulationTest, QuasiStaticStepsGiveTheForceOfACantilever) {
                 kShearAndSize * stiffness * 0.001 * step);
 }
 
+TEST(ExperimentSimulationTest, AClampThatRubsLeavesALoopInQuasiStaticSteps) {
+  // A tip that is moved aside by w and back: sliding forth and back, the force F on it obeys
+  // F (L + s L^2/(3 EI)) = s w/L +- slip_moment.
+  constexpr double kSlip = 2e-4, kSpring = 0.02, kStuck = 0.5;
+  constexpr double kRelative = 5e-3;  // shear, and of second order in w/L
+  Experiment experiment;
+  experiment.gravity_W.setZero();
+  experiment.a.pose.q = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY());
+  Specimen specimen = CableSpecimen();
+  specimen.cable.extensions = {
+      {"clamp_friction", {{{"a.stuck", kStuck}, {"a.slip_moment", kSlip}, {"a.spring", kSpring}}}}};
+  const double L = specimen.cable.length;
+  ClampMotion motion;
+  motion.quasi_static = true;
+  constexpr int kTurn = 6;
+  const auto way = [](int step) { return 0.002 * (step <= kTurn ? step : 2 * kTurn - step); };
+  for (int step = 0; step <= 2 * kTurn; ++step) {
+    motion.t.push_back(step);
+    motion.poses.push_back({Eigen::Vector3d(L, 0, way(step)), experiment.a.pose.q});
+    experiment.record.t.push_back(step);
+  }
+  experiment.b.motion = motion;
+  experiment.b.translation_free = {false, false, true};
+  experiment.b.rotation_free = {true, true, true};
+  experiment.record.quasi_static = true;
+  Channel force = ChannelAt(0, Quantity::kForce, 2);
+  force.clamp = ClampSide::kB;
+  experiment.channels = {force};
+  const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+  const double arm = L + kSpring * L * L / (3 * specimen.cable.EI1);
+  for (const int step : {4, 5, 6, 8, 9, 10, 11}) {
+    const double sign = step <= kTurn ? 1 : -1;
+    const double expected = (kSpring * way(step) / L + sign * kSlip) / arm;
+    EXPECT_NEAR(record.values(step, 0), expected, kRelative * (kSpring * way(6) / L + kSlip) / arm)
+        << step;
+  }
+}
+
+TEST(ExperimentSimulationTest, TheCablesLoadsActBesideTheRigs) {
+  // Swinging under a dead force across, it loses half the rate of external damping more.
+  constexpr double kRate = 2.0;
+  constexpr double kPeaksBetweenSamples = 0.02;
+  const auto decay = [](const Specimen& specimen) {
+    Experiment experiment = RingDown(0.001, 4.0, 4001);
+    experiment.load.samples = {{0.0, 0.1, Eigen::Vector3d(0, 0.001, 0)}};
+    const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, Fine()).front();
+    EXPECT_TRUE(record.ok) << record.message;
+    const CableModel& m = specimen.cable;
+    const double w = std::pow(1.87510407 / m.length, 2) * std::sqrt(m.EI1 / m.mass_per_length);
+    const int swing = static_cast<int>(std::lround(2 * kPi / w / 0.001));  // in samples
+    const auto largest = [&](int swings) {
+      return record.values.col(0).segment(swings * swing, swing).cwiseAbs().maxCoeff();
+    };
+    return std::log(largest(1) / largest(6)) / (5 * swing * 0.001);
+  };
+  Specimen plain = CableSpecimen(), damped = plain;
+  damped.cable.extensions = {{"external_damping", {{{"rate", kRate}}}}};
+  EXPECT_NEAR(decay(damped) - decay(plain), 0.5 * kRate, kPeaksBetweenSamples * 0.5 * kRate);
+}
+
 /// Clamp b stands where the end of the straight cable along x is, turned about it by `turn` [rad].
 Pose TurnedEnd(const Experiment& experiment, double turn) {
   const Eigen::Quaterniond about_axis(Eigen::AngleAxisd(turn, Eigen::Vector3d::UnitZ()));

@@ -73,6 +73,24 @@ TEST(SetMistakes, Cable) {
                 "the length\n");
 }
 
+TEST(SetMistakes, ALawOfAClampThatNoExperimentHas) {
+  SetFolder folder;
+  const std::string cable =
+      Replaced(kHead, "  EI: 0.0120\n",
+               "  EI: 0.0120\n"
+               "  extensions:\n"
+               "    clamp_friction: {a: {stuck: 1, slip_moment: 1, spring: 1},\n"
+               "                     b: {stuck: 1, slip_moment: 1, spring: 1}}\n");
+  WriteAll(&folder, cable + kRingdown + kTorsion + kSwinging);
+  EXPECT_EQ(folder.Said(), kYaml +
+                               "9: cable.extensions.clamp_friction.b.slip_moment: got "
+                               "clamp_friction of clamp b, which no experiment has: end b is free "
+                               "or carries a disc; expected none, or an experiment with a clamp "
+                               "at b\n");
+  WriteAll(&folder, cable + kRingdown + kArch);
+  EXPECT_EQ(folder.Said(), "");
+}
+
 TEST(SetMistakes, Experiments) {
   EXPECT_EQ(Said("experiments:\n", "experiments: []\nexperimenst:\n"),
             kYaml +

@@ -3,6 +3,10 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
+#include <vector>
+
+#include "cosserat_cable/rod/end_law.h"
 
 namespace cosserat_cable::rod {
 
@@ -16,23 +20,26 @@ struct EndModel {
   /// section [N m/rad], [N m s/rad].
   Eigen::Vector3d stiffness = Eigen::Vector3d::Zero();
   Eigen::Vector3d damping = Eigen::Vector3d::Zero();
+  /// What acts beside them about the axes that are not held; each rod clones them.
+  std::vector<std::shared_ptr<const EndLaw>> laws{};
 
   static EndModel Clamped() { return {}; }
   static EndModel Pinned() {
-    return {{true, true, true},
-            {false, false, false},
-            Eigen::Vector3d::Zero(),
-            Eigen::Vector3d::Zero()};
+    EndModel end;
+    end.rotation = {false, false, false};
+    return end;
   }
   static EndModel Free() {
-    return {{false, false, false},
-            {false, false, false},
-            Eigen::Vector3d::Zero(),
-            Eigen::Vector3d::Zero()};
+    EndModel end = Pinned();
+    end.translation = {false, false, false};
+    return end;
   }
   /// Held in place by a joint that gives way in rotation.
   static EndModel Sprung(const Eigen::Vector3d& stiffness, const Eigen::Vector3d& damping) {
-    return {{true, true, true}, {false, false, false}, stiffness, damping};
+    EndModel end = Pinned();
+    end.stiffness = stiffness;
+    end.damping = damping;
+    return end;
   }
 
   /// Everything is held: the end's node moves with the clamp.
@@ -44,7 +51,7 @@ struct EndModel {
   bool partly_held() const {
     const bool holds = translation[0] || translation[1] || translation[2] || rotation[0] ||
                        rotation[1] || rotation[2];
-    return !clamped() && (holds || stiffness.any() || damping.any());
+    return !clamped() && (holds || stiffness.any() || damping.any() || !laws.empty());
   }
 };
 

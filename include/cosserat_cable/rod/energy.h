@@ -7,8 +7,8 @@ namespace cosserat_cable::rod {
 /// shows in the residual.
 struct EnergyBalance {
   double work_ends = 0;     ///< by both clamps on the rod and on their own springs
-  double work_loads = 0;    ///< by loads other than gravity: contact, point loads
-  double dissipated = 0;    ///< in the sections and in the clamps' dashpots
+  double work_loads = 0;    ///< by loads other than gravity, but for what they dissipate
+  double dissipated = 0;    ///< in the sections, the clamps and the loads
   double stored = 0;        ///< change of the kinetic, elastic and gravity energy
   double work_section = 0;  ///< by changes of the section's parameters at the strains of the time
 

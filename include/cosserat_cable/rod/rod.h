@@ -48,6 +48,8 @@ struct RodModel {
   std::vector<Joint> joints;
   Eigen::Vector3d gravity = Eigen::Vector3d(0, 0, -9.81);  ///< [m/s^2]
   EndModel a, b;
+  /// What always acts on it beside the loads that a call is given: the air, an obstacle.
+  std::vector<std::shared_ptr<const Load>> loads;
 };
 
 struct SolveReport {
@@ -112,6 +114,10 @@ class Rod : public Centreline {
   /// The same from a configuration that is nearly there, without a detour by way of rods that
   /// stretch more easily: for loads that hold only where they were seen, as contact.
   SolveReport EquilibrateNearby(const Load* load = nullptr);
+  /// The next of a slow sequence of equilibria: frictions are where the last state left them, where
+  /// Equilibrate finds the rest in which, shaken loose, they carry nothing. The first state after
+  /// SetConfiguration has no past and is of the latter kind.
+  SolveReport EquilibrateWithHistory(const Load* load = nullptr);
 
   /// Advances by `dt` [s] to clamps at `a` and `b`. Their velocities are those that the time scheme
   /// makes of their poses, so that a rigid motion strains nothing. Where it does not converge the
@@ -122,6 +128,11 @@ class Rod : public Centreline {
   /// contact is searched at.
   void Predict(double dt, const Pose& a, const Pose& b,
                std::vector<Eigen::Vector3d>* positions) const;
+
+  /// The time [s] that loads are told; grows with each step, 0 at first.
+  void SetTime(double time);
+  double time() const override;
+  Motion clamp_a() const override;
 
   // The state.
   Vec3<double> position(int node) const override;

@@ -1,0 +1,41 @@
+// Dry friction of a clamp in bending.
+#pragma once
+
+#include "cosserat_cable/rod/end_law.h"
+
+namespace cosserat_cable::rod {
+
+/// A Jenkins element about the two axes across the clamp's a3: a spring `stuck` in series with a
+/// slider that gives way at `slip_moment`, whatever the direction. With the slip p as internal
+/// variable,
+///
+///     M = stuck (psi - p)    |M| <= slip_moment    dp along M where |M| = slip_moment
+///
+/// integrated by radial return (Simo and Hughes, Computational Inelasticity, 1998, ch. 3), which is
+/// exact where the way is straight. A cycle between -A and A that slips loses
+/// 4 slip_moment (A - slip_moment/stuck).
+class ClampFriction final : public EndLaw {
+ public:
+  /// @pre both are positive: `stuck` [N m/rad], `slip_moment` [N m]
+  ClampFriction(double stuck, double slip_moment) : stuck_(stuck), slip_moment_(slip_moment) {}
+
+  std::unique_ptr<EndLaw> Clone() const override;
+  Resistance Resist(const Eigen::Vector3d& psi, const Eigen::Vector3d& rate) const override;
+  double Potential(const Eigen::Vector3d& psi) const override;
+  double Commit(const Eigen::Vector3d& psi) override;
+  Resistance ResistAtRest(const Eigen::Vector3d&) const override { return {}; }
+  double PotentialAtRest(const Eigen::Vector3d&) const override { return 0; }
+  void Rest(const Eigen::Vector3d& psi) override { slip_ = psi.head<2>(); }
+  double Energy(const Eigen::Vector3d& psi) const override;
+
+ private:
+  /// Of the spring if nothing slipped.
+  Eigen::Vector2d Trial(const Eigen::Vector3d& psi) const {
+    return stuck_ * (psi.head<2>() - slip_);
+  }
+
+  double stuck_, slip_moment_;
+  Eigen::Vector2d slip_ = Eigen::Vector2d::Zero();  // p [rad]
+};
+
+}  // namespace cosserat_cable::rod
