@@ -11,6 +11,7 @@
 
 #include "../../src/identification/direct_biases.h"
 #include "../../src/identification/weighted_line.h"
+#include "cosserat_cable/cable/parameters.h"
 
 namespace cosserat_cable {
 namespace {
