@@ -174,7 +174,12 @@ bool Rig::Settle(const std::vector<Pose>* near_rest, rod::Rod* rod, std::string*
     rod->SetConfiguration(
         rod::BowedShape(a_, b_, specimen_.cable.length, elements_, experiment_.gravity_W));
   } else {
-    rod->SetConfiguration(rod::StraightShape(a_, specimen_.cable.length, elements_));
+    // Unstressed about its axis: what the end is turned by counts from there.
+    std::vector<Pose> straight = rod::StraightShape(a_, specimen_.cable.length, elements_);
+    const double twist = rod->model().section.kappa0.z() * specimen_.cable.length;
+    for (int i = 0; twist != 0 && i <= elements_; ++i)
+      straight[i].q = straight[i].q * RotationExp(Vector3d(0, 0, twist * i / elements_));
+    rod->SetConfiguration(straight);
     b_ = rod->pose(elements_);
   }
   if (!equilibrate()) return false;
@@ -199,7 +204,8 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   // End b is held about its axis until it is let go.
   const bool twisted = start.kind == StartCondition::Kind::kTwisted;
   rod::Rod settling(Model(twisted ? Turn::kHeld : Turn::kFree));
-  if (!Settle(near, &settling, message)) return false;
+  // An end that is held about its axis is held where this cable has it, not a cable like it.
+  if (!Settle(twisted ? nullptr : near, &settling, message)) return false;
   rest_.resize(elements_ + 1);
   for (int i = 0; i <= elements_; ++i) rest_[i] = settling.pose(i);
   if (start.kind == StartCondition::Kind::kHeld && !PullTo(start.held, kThere, &settling)) {
