@@ -41,6 +41,8 @@ constexpr double kMostShift = 0.2, kResolved = 0.5;
 constexpr double kUnshown = 1e-3, kRidge = 1e-10;
 // Times the noise.
 constexpr double kFarMore = 30;
+// Half of a sum of squares: a fit that is worse by no more is as good.
+constexpr double kAsWell = 2;
 // Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
 constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
 // How often what differs between records is estimated anew, and the change that ends it.
@@ -434,9 +436,12 @@ bool Work::Conclude() {
   return true;
 }
 
-/// What is not determined goes back to what was known of it, and the rest is fitted once more.
+/// What is not determined goes back to what was known of it, and the rest is fitted once more;
+/// where that fits as well. Of several that the data only see together, what was known may
+/// contradict them.
 void Work::KeepDefaults(const Determination& determination) {
   bool moved = false;
+  const Eigen::VectorXd found = optimum_.values;
   for (int i = 0; i < unknowns_.size(); ++i) {
     const Unknown& u = unknowns_.all()[i];
     if (determination.reasons[i].empty() || !u.start_known || optimum_.values[i] == u.start)
@@ -449,9 +454,16 @@ void Work::KeepDefaults(const Determination& determination) {
   if (!moved) return;
   const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {},
                             [&](const std::string& what) { return Tell(what, 0.8); });
-  if (!fit.ok) return;
+  const double before = 0.5 * optimum_.residuals.squaredNorm();
+  RecordModel::Simulated kept;
+  kept.ok = fit.ok && fit.cost < before + kAsWell;
+  if (kept.ok) kept = model_.Simulate({fit.values}, model_.WholeHorizon()).front();
+  if (!kept.ok) {
+    optimum_.values = found;
+    return;
+  }
   optimum_.values = fit.values;
-  simulated_ = model_.Simulate({fit.values}, model_.WholeHorizon()).front().records;
+  simulated_ = std::move(kept.records);
 }
 
 /// Standard deviations to the ends of the 95 % interval: Student's, with the freedom that is left
