@@ -41,7 +41,7 @@ constexpr double kStartPeriods[] = {0.3, 1.0};
 constexpr double kPower = 0.01;
 const FitOptions kOnTheWay = {true, true, {}, {}};
 // Where the search looks: around the start, within these factors.
-constexpr double kStiffnessSpread = 1.6, kDampingSpread = 6.0;
+constexpr double kStiffnessSpread = 1.6, kWideSpread = 6.0;
 constexpr int kPoints = 24, kBest = 2;
 // A derivative whose records, over the unknown's whole size, stay below this part of the noise's
 // sum of squares is none.
@@ -171,6 +171,9 @@ void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, Rec
         model->Ignore(records[e].unknowns[k], static_cast<int>(e));
 }
 
+/// What is known of a law beyond the plain rod is little more than its size.
+bool IsOfExtension(const std::string& name) { return name.find('.') != std::string::npos; }
+
 /// Spread evenly over the box around the start, the same on each run.
 std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
   std::mt19937 random(kSeed);
@@ -189,9 +192,14 @@ std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
       const Unknown& u = unknowns.all()[i];
       if (u.kind != Unknown::Kind::kCable) continue;
       const double level = 2 * (levels[i][k] + 0.5) / kPoints - 1;  // in (-1, 1)
-      const double spread = u.damping && !u.start_known ? kDampingSpread : kStiffnessSpread;
-      values[i] = std::clamp((values[i] > 0 ? values[i] : u.scale) * std::pow(spread, level),
-                             u.lower, u.upper);
+      if (u.sign == ParameterSign::kSigned) {
+        values[i] += level * u.scale;
+      } else {
+        const bool hardly_known = u.damping ? !u.start_known : IsOfExtension(u.name);
+        const double spread = hardly_known ? kWideSpread : kStiffnessSpread;
+        values[i] = (values[i] > 0 ? values[i] : u.scale) * std::pow(spread, level);
+      }
+      values[i] = std::clamp(values[i], u.lower, u.upper);
     }
     points.push_back(values);
   }

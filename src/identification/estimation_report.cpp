@@ -1,0 +1,156 @@
+// What an estimation tells once its fit has ended.
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat_cable/input/number_text.h"
+#include "estimation_remarks.h"
+#include "estimation_work.h"
+#include "weighted_line.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr double kNormal95 = 1.959964;
+// Half of a sum of squares: a fit that is worse by no more is as good.
+constexpr double kAsWell = 2;
+
+}  // namespace
+
+/// What is not determined goes back to what was known of it, and the rest is fitted once more;
+/// where that fits as well. Of several that the data only see together, what was known may
+/// contradict them.
+void EstimationWork::KeepDefaults(const Determination& determination) {
+  bool moved = false;
+  const Eigen::VectorXd found = optimum_.values;
+  for (int i = 0; i < unknowns_.size(); ++i) {
+    const Unknown& u = unknowns_.all()[i];
+    if (determination.reasons[i].empty() || !u.start_known || optimum_.values[i] == u.start)
+      continue;
+    optimum_.values[i] = u.start;
+    for (std::size_t e = 0; e < experiments().size(); ++e)
+      if (unknowns_.Concerns(i, static_cast<int>(e))) model_.Ignore(i, static_cast<int>(e));
+    moved = true;
+  }
+  if (!moved) return;
+  const FitResult fit = Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, {},
+                            [&](const std::string& what) { return Tell(what, 0.8); });
+  const double before = 0.5 * optimum_.residuals.squaredNorm();
+  RecordModel::Simulated kept;
+  kept.ok = fit.ok && fit.cost < before + kAsWell;
+  if (kept.ok) kept = model_.Simulate({fit.values}, model_.WholeHorizon()).front();
+  if (!kept.ok) {
+    optimum_.values = found;
+    return;
+  }
+  optimum_.values = fit.values;
+  simulated_ = std::move(kept.records);
+}
+
+/// Standard deviations to the ends of the 95 % interval: Student's, with the freedom that is left
+/// by the estimated scatter's share of the variance (Welch and Satterthwaite).
+double EstimationWork::QuantileOf(int unknown, const Determination& determination,
+                                  const Information& information) const {
+  if (estimation_.scatter.empty()) return kNormal95;
+  std::vector<int> common;
+  for (const int i : determination.determined)
+    if (unknowns_.all()[i].kind != Unknown::Kind::kScatter) common.push_back(i);
+  const double without = CovarianceOf(information, common)(unknown, unknown);
+  const double with = determination.covariance(unknown, unknown);
+  const double share = with > 0 ? std::max(0.0, 1 - without / with) : 0.0;
+  if (!(share > 0)) return kNormal95;
+  int freedom = estimation_.scatter.front().freedom;
+  for (const ParameterScatter& one : estimation_.scatter) freedom = std::min(freedom, one.freedom);
+  return StudentQuantile(freedom / (share * share));
+}
+
+void EstimationWork::ReportChannels() {
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const Experiment& experiment = experiments()[e];
+    ExperimentFit fit;
+    fit.simulated = simulated_[e];
+    fit.left_out = model_.IsLeftOut(static_cast<int>(e));
+    for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
+      const int column = static_cast<int>(c);
+      ChannelFit channel;
+      channel.column = experiment.channels[c].column;
+      channel.sigma = noise_[e][column];
+      channel.sigma_given = experiment.channels[c].sigma.has_value();
+      channel.rms = RootMeanSquare(CountedResiduals(experiment, simulated_[e], Counted(e), column));
+      channel.correlation_samples = colours_[e][c].correlation_samples;
+      channel.noise = Level(e, column);
+      if (!model_.IsLeftOut(static_cast<int>(e)))
+        Judge(experiment, &channel, &estimation_.warnings);
+      fit.channels.push_back(channel);
+    }
+    estimation_.experiments.push_back(std::move(fit));
+  }
+}
+
+void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
+  estimation_.scatter = scatter;
+  const Information information = InformationOf(model_, optimum_.jacobian, colours_);
+  const Determination determination = Determine(model_, optimum_.values, information);
+  optimum_.covariance = determination.covariance;
+  std::vector<int> shown;
+  for (const int i : determination.determined)
+    if (unknowns_.all()[i].kind == Unknown::Kind::kCable) shown.push_back(i);
+  std::vector<Profile> profiles(shown.size());
+  if (options_.profiles && !hurried_ && Tell("profiles of the likelihood", 0.85))
+    profiles = FindProfiles(model_, optimum_, noise_, shown);
+  Charge("profiles");
+
+  const Eigen::VectorXd fitted = optimum_.values;
+  const Eigen::VectorXd sds = determination.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  for (int i = 0; i < unknowns_.size(); ++i) {
+    ParameterEstimate estimate;
+    estimate.unknown = unknowns_.all()[i];
+    estimate.value = fitted[i];
+    estimate.determined = determination.reasons[i].empty();
+    estimate.reason = determination.reasons[i];
+    if (!estimate.determined && ShownByNone(i))
+      estimate.reason = "every record that could show [" + estimate.unknown.name +
+                        "] was left out: see the warnings";
+    if (estimate.determined) {
+      estimate.sd = sds[i] * estimate.unknown.scale;
+      const double quantile = QuantileOf(i, determination, information);
+      estimate.low = estimate.value - quantile * estimate.sd;
+      estimate.high = estimate.value + quantile * estimate.sd;
+      estimate.quantile = quantile;
+      const auto place = std::find(shown.begin(), shown.end(), i);
+      if (place != shown.end()) {
+        estimate.profile = profiles[static_cast<std::size_t>(place - shown.begin())];
+        if (const auto interval = IntervalOf(estimate.profile, estimate.value, estimate.sd)) {
+          const double wider = quantile / kNormal95;
+          estimate.low = estimate.value + wider * (interval->first - estimate.value);
+          estimate.high = estimate.value + wider * (interval->second - estimate.value);
+        }
+      }
+      estimate.low = std::max(estimate.low, estimate.unknown.lower);
+    }
+    estimation_.parameters.push_back(std::move(estimate));
+  }
+  const Eigen::VectorXd inverse = sds.unaryExpr([](double sd) { return sd > 0 ? 1 / sd : 0.0; });
+  estimation_.correlation = inverse.asDiagonal() * determination.covariance * inverse.asDiagonal();
+  estimation_.combinations = determination.combinations;
+
+  if (!hurried_) KeepDefaults(determination);
+  for (int i = 0; i < unknowns_.size(); ++i)
+    if (!estimation_.parameters[i].determined) estimation_.parameters[i].value = optimum_.values[i];
+  Eigen::VectorXd values = optimum_.values;
+  for (int i = 0; i < unknowns_.size(); ++i)
+    if (estimation_.parameters[i].determined) values[i] = fitted[i];
+  estimation_.cable = unknowns_.FilledKeys(values);
+  for (const ParameterScatter& one : scatter)
+    estimation_.warnings.push_back(
+        "[" + one.name + "] differs between the " + std::to_string(one.records) +
+        " records that show it by more than their noise: standard deviation " +
+        FormatRounded(one.sd) + " " + UnitOf(one.name) + "; the intervals count it");
+  ReportChannels();
+  estimation_.converged = end_.empty();
+  if (!end_.empty())
+    estimation_.warnings.push_back("these are the best values so far, and no minimum: " + end_);
+  estimation_.ok = true;
+  estimation_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,100 @@
+// The work behind an estimation, step by step, and what it knows on its way.
+#pragma once
+
+#include <Eigen/Core>
+#include <atomic>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/identification/estimation.h"
+#include "fit.h"
+#include "information.h"
+#include "noise.h"
+#include "profile.h"
+#include "record_scatter.h"
+
+namespace cosserat_cable {
+
+/// Residuals of a channel at the samples that `count`.
+Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
+                                 const Eigen::MatrixXd& count, int column);
+double RootMeanSquare(const Eigen::VectorXd& values);
+
+class EstimationWork {
+ public:
+  EstimationWork(const Unknowns& unknowns, const EstimationOptions& options)
+      : unknowns_(unknowns), options_(options), model_(unknowns) {
+    model_.SetStop([this] { return Stopped() || OutOfTime(); });
+  }
+  EstimationWork(const EstimationWork&) = delete;
+
+  /// False: there is none, and Answer says why.
+  bool FitFromStart();
+  /// Whether the work ended before its time.
+  bool hurried() const { return hurried_; }
+  /// Whether what is left is far more than noise.
+  bool misfit() const { return misfit_; }
+  /// From where another fit ended, which knew less of what differs between records.
+  bool FitFrom(const EstimationWork& before);
+  std::vector<ParameterScatter> Scatter() const {
+    return FindScatter(model_, {optimum_.values, optimum_.residuals, optimum_.jacobian, colours_});
+  }
+  /// @pre the fit succeeded
+  void Report(const std::vector<ParameterScatter>& scatter);
+  Estimation Answer() const { return estimation_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  const std::vector<Experiment>& experiments() const { return unknowns_.set().experiments; }
+  /// What was simulated since the last call belongs to this stage.
+  void Charge(const std::string& stage);
+  bool Tell(const std::string& what, double part) {
+    if (options_.progress && !options_.progress(what, part)) stopped_ = true;
+    return !model_.Stopping();
+  }
+  NoiseLevel Level(std::size_t experiment, int column) const;
+  bool MovesBeyondNoise(std::size_t experiment) const;
+  Eigen::MatrixXd Counted(std::size_t experiment) const;
+  bool Sharpen(const RecordJacobian& jacobian);
+  bool ShownByNone(int unknown) const;
+  bool UpdateNoise();
+  bool FitInRounds();
+  bool FitToEnd();
+  bool Stopped() const { return stopped_ || (options_.stop && options_.stop()); }
+  bool OutOfTime() const {
+    return options_.time_limit > 0 &&
+           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
+  }
+  bool Hurry();
+  void LoosenNoise();
+  void LeaveOut(std::size_t experiment, const std::string& why);
+  void LeaveOutDamaged();
+  void LeaveOutShort();
+  bool LeaveOutSilent();
+  bool Conclude();
+  void FindColours();
+  double QuantileOf(int unknown, const Determination& determination,
+                    const Information& information) const;
+  void ReportChannels();
+  void KeepDefaults(const Determination& determination);
+
+  const Unknowns& unknowns_;
+  const EstimationOptions& options_;
+  RecordModel model_;
+  NoiseLevels noise_;
+  Optimum optimum_;
+  Eigen::VectorXd steps_;  // of the differences, in the unknowns' scales
+  FitResult fit_;          // the last one of whole records
+  std::atomic<bool> stopped_{false};
+  bool hurried_ = false;
+  bool misfit_ = false;  // what is left is far more than noise: it takes no precision to see
+  std::string end_;      // why the fit is no minimum; empty where it is
+  Records simulated_;
+  std::vector<std::vector<NoiseColour>> colours_;
+  Estimation estimation_;
+  Clock::time_point begin_ = Clock::now(), charged_at_ = begin_;
+  SimulationCount charged_;
+};
+
+}  // namespace cosserat_cable
