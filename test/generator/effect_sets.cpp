@@ -22,7 +22,7 @@ Vector3d acrossClamp(const Experiment& e, const Vector3d& position) {
 
 /// What default sizes are measured by.
 EffectScale scaleOf(const std::vector<Experiment>& experiments, const CableData& truth) {
-  constexpr double kNear = 0.3;  // of the amplitude: how far beyond the rest an obstacle is
+  constexpr double kNear = 0.5;  // of the amplitude: how far beyond the rest an obstacle is
   EffectScale scale;
   scale.cable = truth;
   scale.shortest = truth.length;
@@ -123,8 +123,7 @@ void applyEffects(const EffectPlan& plan, std::vector<Experiment>* experiments,
   if (any) {
     set->effects = chooseEffects(plan.names, plan.size, scaleOf(*experiments, set->truth));
   }
-  for (const std::string& assignment : plan.assignments)
-    setEffectValue(assignment, &set->effects);
+  for (const std::string& assignment : plan.assignments) setEffectValue(assignment, &set->effects);
   for (Experiment& e : *experiments) e.effects = set->effects;
 }
 

@@ -14,13 +14,13 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-12;     // of the Newton step in units of scale()
-constexpr double kLongestStep = 0.3;     // likewise: beyond it the linear model says little
-constexpr double kSamePosition = 1e-11;  // of the length
+constexpr double kTolerance = 1e-12;        // of the Newton step in units of scale()
+constexpr double kLongestStep = 0.3;        // likewise: beyond it the linear model says little
+constexpr double kSamePosition = 1e-11;     // of the length
 constexpr double kAbruptTolerance = 1e-10;  // likewise, where the residual has kinks
 constexpr int kMaxAbruptIterations = 300;
 constexpr int kMaxCuts = 6;  // halvings of a step
-constexpr int kStages = 12;              // of a load or a displacement that grows
+constexpr int kStages = 12;  // of a load or a displacement that grows
 
 MotionState atRest(const RodDynamics& rod, double t, const VectorXd& q) {
   const VectorXd zero = VectorXd::Zero(rod.size());
@@ -113,7 +113,10 @@ VectorXd pulled(RodDynamics& rod, const VectorXd& rest, const Eigen::RowVectorXd
   const double L = rod.rod().length;
   const double unit = rod.rod().C_M[0] / (L * L);  // [N]
   VectorXd q = rest;
-  for (int iteration = 0; iteration < (rod.abrupt() ? kMaxAbruptIterations : kMaxIterations); ++iteration) {
+  const bool abrupt = rod.abrupt();
+  const int most = abrupt ? kMaxAbruptIterations : kMaxIterations;
+  const double tolerance = abrupt ? kAbruptTolerance : kTolerance;
+  for (int iteration = 0; iteration < most; ++iteration) {
     // q answers the residual and three unit forces; the forces close the gap.
     MatrixXd right(n, 4);
     right.col(0) = staticResidual(rod, 0.0, q);
@@ -146,7 +149,7 @@ VectorXd pulled(RodDynamics& rod, const VectorXd& rest, const Eigen::RowVectorXd
     const double damping = std::min(1.0, kLongestStep / size);
     q += damping * step;
     rod.forces.back().second += damping * unit * change;
-    if (size < (rod.abrupt() ? kAbruptTolerance : kTolerance) && missing.norm() < kSamePosition * L) return q;
+    if (size < tolerance && missing.norm() < kSamePosition * L) return q;
   }
   throw std::runtime_error("no held equilibrium found");
 }
@@ -162,13 +165,19 @@ VectorXd heldEquilibrium(RodDynamics& rod, const VectorXd& rest, double s,
   if (!rod.hasEffects()) {
     return pulled(rod, rest, station, position, (position - start).norm());
   }
+  // The force that does it without history, then the path along which it grows, then what is
+  // missing.
+  const double gap = (position - start).norm();
+  pulled(rod, rest, station, position, gap);
+  const Vector3d force = rod.forces.back().second;
   VectorXd q = rest;
   for (int stage = 1; stage <= kStages; ++stage) {
-    const double part = static_cast<double>(stage) / kStages;
-    const Vector3d target = start + part * (position - start);
-    q = pulled(rod, q, station, target, (target - start).norm());
+    rod.forces.back().second = static_cast<double>(stage) / kStages * force;
+    q = equilibrium(rod, q);
     remember(rod, q);
   }
+  q = pulled(rod, q, station, position, gap);
+  remember(rod, q);
   return q;
 }
 

@@ -1,5 +1,5 @@
-// extensions.air_drag: -1/2 rho Cd d |v_n| v_n per length, v_n the part of the world velocity across
-// the axis, at stations that are not the rod's own nodes.
+// extensions.air_drag: -1/2 rho Cd d |v_n| v_n per length, v_n the part of the world velocity
+// across the axis, at stations that are not the rod's own nodes.
 
 #include "kinds.h"
 
@@ -26,9 +26,9 @@ class AirDrag : public Effect {
 };
 
 EffectValues defaults(const EffectScale& scale, double size) {
-  // What takes 15 % of the larger ring-down's amplitude in ten swings.
+  // Takes a third of the larger ring-down's amplitude in ten swings, small ones hardly show it.
   const CableData& c = scale.cable;
-  return {{"Cd", 0.03 * size * c.rhoA / (kAir * c.diameter * scale.amplitude * c.length)}};
+  return {{"Cd", 0.1 * size * c.rhoA / (kAir * c.diameter * scale.amplitude * c.length)}};
 }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site) {

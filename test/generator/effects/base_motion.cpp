@@ -1,9 +1,10 @@
-// faults.base_motion: clamp a moves otherwise than its file says. In this order: a factor on the motion
-// about its mean and a shift in time (phase over the dominant frequency, the highest line of the
-// position's spectrum), a bracket, a constant tilt in the clamp's own frame, R(t) exp(tilt).
+// faults.base_motion: clamp a moves otherwise than its file says. In this order: a factor on the
+// motion about its mean and a shift in time (phase over the dominant frequency, the highest line of
+// the position's spectrum), a bracket, a constant tilt in the clamp's own frame, R(t) exp(tilt).
 // The bracket is a mass on a spring and a dashpot to the moving base:
-// x'' + 2 D w (x' - u') + w^2 (x - u) = 0, from rest on the base, in translation only here, by RK4 in
-// steps of a fortieth of its period. bracket.frequency 0: none. Rotation is neither scaled nor filtered.
+// x'' + 2 D w (x' - u') + w^2 (x - u) = 0, from rest on the base, in translation only here, by RK4
+// in steps of a fortieth of its period. bracket.frequency 0: none. Rotation is neither scaled nor
+// filtered.
 
 #include <cmath>
 
@@ -144,12 +145,12 @@ class BaseMotion : public Effect {
 };
 
 EffectValues defaults(const EffectScale&, double size) {
-  return {{"a.amplitude", 1.0 + 0.15 * size},
-          {"a.phase", 0.1 * size},
+  return {{"a.amplitude", 1.0 + 0.1 * size},
+          {"a.phase", 0.06 * size},
           {"a.bracket.frequency", 0.0},
           {"a.bracket.damping", 0.1},
-          {"a.tilt[0]", 0.01 * size},
-          {"a.tilt[1]", -0.008 * size},
+          {"a.tilt[0]", 0.004 * size},
+          {"a.tilt[1]", -0.003 * size},
           {"a.tilt[2]", 0.0}};
 }
 

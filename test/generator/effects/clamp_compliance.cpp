@@ -18,8 +18,8 @@ class ClampCompliance : public Effect {
   bool bendsClamp(int end) const override { return bending_[end] > 0.0; }
   bool twistsClamp(int end) const override { return torsion_[end] > 0.0; }
   void addClampMoment(int end, const ClampTurn& turn, Eigen::Vector3d* moment) const override {
-    *moment += Eigen::Vector3d(bending_[end], bending_[end], torsion_[end])
-                   .cwiseProduct(turn.angle);
+    *moment +=
+        Eigen::Vector3d(bending_[end], bending_[end], torsion_[end]).cwiseProduct(turn.angle);
   }
 
  private:
@@ -28,8 +28,8 @@ class ClampCompliance : public Effect {
 
 EffectValues defaults(const EffectScale& scale, double size) {
   const double L = scale.cable.length;
-  return {{"a.bending", clampStiffness(scale.cable.EI / L, 0.02 * size)},
-          {"a.torsion", clampStiffness(scale.cable.GJ / L, 0.04 * size)},
+  return {{"a.bending", clampStiffness(scale.cable.EI / L, 0.012 * size)},
+          {"a.torsion", clampStiffness(scale.cable.GJ / L, 0.03 * size)},
           {"b.bending", 0.0},
           {"b.torsion", 0.0}};
 }

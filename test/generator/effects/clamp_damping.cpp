@@ -1,5 +1,5 @@
-// extensions.clamp_damping: dashpots beside the springs of clamp_compliance; b.torsion of a specimen
-// with a disc is the loss D_E against the world.
+// extensions.clamp_damping: dashpots beside the springs of clamp_compliance; b.torsion of a
+// specimen with a disc is the loss D_E against the world.
 
 #include "kinds.h"
 
@@ -18,8 +18,7 @@ class ClampDamping : public Effect {
   bool bendsClamp(int end) const override { return bending_[end] > 0.0; }
   bool twistsClamp(int end) const override { return torsion_[end] > 0.0 && !(end == 1 && disc_); }
   void addClampMoment(int end, const ClampTurn& turn, Eigen::Vector3d* moment) const override {
-    *moment +=
-        Eigen::Vector3d(bending_[end], bending_[end], torsion_[end]).cwiseProduct(turn.rate);
+    *moment += Eigen::Vector3d(bending_[end], bending_[end], torsion_[end]).cwiseProduct(turn.rate);
   }
   double discDashpot() const override { return disc_ ? torsion_[1] : 0.0; }
 
@@ -31,8 +30,8 @@ class ClampDamping : public Effect {
 EffectValues defaults(const EffectScale& scale, double size) {
   // Relative to a spring that gives way by a few parts in a hundred: the loss is the product.
   const double L = scale.cable.length;
-  const double bending = clampStiffness(scale.cable.EI / L, 0.02 * size);
-  const double torsion = clampStiffness(scale.cable.GJ / L, 0.04 * size);
+  const double bending = clampStiffness(scale.cable.EI / L, 0.012 * size);
+  const double torsion = clampStiffness(scale.cable.GJ / L, 0.03 * size);
   return {{"a.bending", size == 0.0 ? 0.0 : 0.7 * bending / scale.frequency},
           {"a.torsion", size == 0.0 ? 0.0 : 0.7 * torsion / scale.torsion},
           {"b.bending", 0.0},

@@ -1,6 +1,6 @@
-// extensions.clamp_friction: the clamp turns in bending against a spring beside a Jenkins element, a
-// spring `stuck` in series with a slider of moment `slip_moment`; isotropic, by a radial return at the
-// end of each step.
+// extensions.clamp_friction: the clamp turns in bending against a spring beside a Jenkins element,
+// a spring `stuck` in series with a slider of moment `slip_moment`; isotropic, by a radial return
+// at the end of each step.
 
 #include "kinds.h"
 
@@ -44,9 +44,9 @@ class ClampFriction : public Effect {
 
 EffectValues defaults(const EffectScale& scale, double size) {
   const double own = scale.cable.EI / scale.cable.length;
-  return {{"a.stuck", clampStiffness(own, 0.02 * size)},
+  return {{"a.stuck", clampStiffness(own, 0.012 * size)},
           {"a.slip_moment", 0.25 * scale.cable.EI * scale.curvature()},
-          {"a.spring", clampStiffness(own, 0.06 * size)},
+          {"a.spring", clampStiffness(own, 0.03 * size)},
           {"b.stuck", 0.0},
           {"b.slip_moment", 0.0},
           {"b.spring", 0.0}};

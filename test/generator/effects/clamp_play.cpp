@@ -36,8 +36,8 @@ class ClampPlay : public Effect {
 
 EffectValues defaults(const EffectScale& scale, double size) {
   const double own = scale.cable.EI / scale.cable.length;
-  return {{"a.gap", 0.03 * scale.amplitude * size},
-          {"a.stiffness", clampStiffness(own, 0.02 * size)},
+  return {{"a.gap", 0.012 * scale.amplitude * size},
+          {"a.stiffness", clampStiffness(own, 0.008 * size)},
           {"b.gap", 0.0},
           {"b.stiffness", 0.0}};
 }

@@ -18,7 +18,7 @@ class ExternalDamping : public Effect {
 };
 
 EffectValues defaults(const EffectScale& scale, double size) {
-  return {{"rate", 0.015 * size * scale.frequency}};
+  return {{"rate", 0.03 * size * scale.frequency}};
 }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site) {

@@ -8,7 +8,7 @@ namespace {
 
 EffectValues defaults(const EffectScale& scale, double size) {
   const double unit = size / scale.cable.length;
-  return {{"k1", 0.04 * unit}, {"k2", -0.03 * unit}, {"twist", 0.1 * unit}};
+  return {{"k1", 0.014 * unit}, {"k2", -0.01 * unit}, {"twist", 0.1 * unit}};
 }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site) {

@@ -60,14 +60,14 @@ class SectionFriction : public Effect {
 };
 
 EffectValues defaults(const EffectScale& scale, double size) {
-  return {{"EI", 0.15 * size * scale.cable.EI},
+  return {{"EI", 0.1 * size * scale.cable.EI},
           {"slip_curvature", 0.2 * scale.curvature()},
           {"spread", 0.5}};
 }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite&) {
-  return std::make_unique<SectionFriction>(
-      valueOf(values, "EI"), valueOf(values, "slip_curvature"), valueOf(values, "spread"));
+  return std::make_unique<SectionFriction>(valueOf(values, "EI"), valueOf(values, "slip_curvature"),
+                                           valueOf(values, "spread"));
 }
 
 }  // namespace

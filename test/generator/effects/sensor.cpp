@@ -1,6 +1,6 @@
-// faults.sensor: measured = low pass of R(tilt) scale true, about the world's origin, of all channels.
-// The low pass is of first order, starts at rest in the first sample, and is integrated exactly for a
-// signal that is straight between dense samples. low_pass 0: none.
+// faults.sensor: measured = low pass of R(tilt) scale true, about the world's origin, of all
+// channels. The low pass is of first order, starts at rest in the first sample, and is integrated
+// exactly for a signal that is straight between dense samples. low_pass 0: none.
 
 #include <cmath>
 
@@ -44,10 +44,10 @@ class Sensor : public Effect {
 
 EffectValues defaults(const EffectScale& scale, double size) {
   const double hertz = scale.frequency / (2.0 * std::acos(-1.0));
-  return {{"scale", 1.0 + 0.02 * size},
-          {"tilt[0]", 0.01 * size},
-          {"tilt[1]", -0.015 * size},
-          {"tilt[2]", 0.01 * size},
+  return {{"scale", 1.0 + 0.002 * size},
+          {"tilt[0]", 0.0008 * size},
+          {"tilt[1]", -0.0012 * size},
+          {"tilt[2]", 0.0008 * size},
           {"low_pass", size == 0.0 ? 0.0 : 8.0 * hertz / size}};
 }
 

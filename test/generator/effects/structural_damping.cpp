@@ -1,7 +1,7 @@
 // extensions.structural_damping: a loss factor that is constant over frequency, by 21 Maxwell
 // branches, four a decade, with corners from 0.01 Hz to 1 kHz. EI and GJ stay the stiffness after
-// the slowest branch (16 s) has relaxed: at f the stiffness is EI (f/0.01 Hz)^(2 loss/pi) or so, and
-// a series that ends at a higher corner has another EI for the same motion.
+// the slowest branch (16 s) has relaxed: at f the stiffness is EI (f/0.01 Hz)^(2 loss/pi) or so,
+// and a series that ends at a higher corner has another EI for the same motion.
 
 #include <cmath>
 
@@ -11,7 +11,7 @@
 namespace cosserat_cable::generator {
 namespace {
 
-EffectValues defaults(const EffectScale&, double size) { return {{"loss_factor", 0.04 * size}}; }
+EffectValues defaults(const EffectScale&, double size) { return {{"loss_factor", 0.02 * size}}; }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site) {
   constexpr int kBranches = 21;
