@@ -25,8 +25,8 @@ double hingedFrequency(double spring) {
   const auto determinant = [r](double b) {
     Eigen::Matrix3d D;
     // Columns: cosh - cos, sinh, sin; rows: root EI w'' = k w', end moment, end shear.
-    D << 2.0 * b * b, -r * b, -r * b,                                                //
-        std::cosh(b) + std::cos(b), std::sinh(b), -std::sin(b),                     //
+    D << 2.0 * b * b, -r * b, -r * b,                            //
+        std::cosh(b) + std::cos(b), std::sinh(b), -std::sin(b),  //
         std::sinh(b) - std::sin(b), std::cosh(b), -std::cos(b);
     return D.determinant();
   };
@@ -75,7 +75,7 @@ TEST(ClampCompliance, TorsionIsASpringInSeries) {
   const double stiffness = 1.0 / (e.cable.length / e.cable.GJ + 1.0 / k);
   const double w = std::sqrt(stiffness / pendulumInertia(e));
   EXPECT_NEAR(record.values(0, 0), 0.4, 1e-8);
-  EXPECT_NEAR(decayOf(record.values.col(0), 2e-3).imag() / w, 1.0, 3.0 * kPendulum);
+  EXPECT_NEAR(std::abs(decayOf(record.values.col(0), 2e-3)) / w, 1.0, 3.0 * kPendulum);
 }
 
 TEST(ClampDamping, PendulumWithADashpotBesideTheClampsSpring) {
@@ -101,14 +101,14 @@ TEST(ClampDamping, TheDiscsLossIsTheSourcePapers) {
   const double D_E = 3e-5;
   e.effects = {{&kClampDamping, 1.0, {{"b.torsion", D_E}}}};
   const Record record = simulate(e);
-  const double delta = D_E / (2.0 * pendulumInertia(e));
+  const double delta = D_E / (2.0 * pendulumInertia(e)) + pendulumDecay(e);
   EXPECT_NEAR(-decayOf(record.values.col(0), 2e-3).real() / delta, 1.0, 2e-3);
 }
 
 TEST(ClampFriction, LoopAreaOfTheJenkinsElement) {
   const double stuck = 0.5, slip = 0.02, spring = 0.1, amplitude = 0.15;
-  const auto effect = effectOf(
-      kClampFriction, {{"a.stuck", stuck}, {"a.slip_moment", slip}, {"a.spring", spring}});
+  const auto effect =
+      effectOf(kClampFriction, {{"a.stuck", stuck}, {"a.slip_moment", slip}, {"a.spring", spring}});
   const Points none = Points::Zero(3, 1);
   double area = 0.0, last_angle = 0.0, last = 0.0;
   constexpr int kSteps = 4000;
@@ -126,16 +126,15 @@ TEST(ClampFriction, LoopAreaOfTheJenkinsElement) {
 }
 
 TEST(ClampFriction, TakesWhatItsLoopTakesFromARingDown) {
-  // Beyond slip an oscillator of one mode loses 4 m (psi - m/k) a cycle; from its energy K A^2/2 the
-  // amplitude falls along a straight line, dA a cycle.
+  // Beyond slip an oscillator of one mode loses 4 m (psi - m/k) a cycle; from its energy K A^2/2
+  // the amplitude falls along a straight line, dA a cycle.
   Experiment e = smallRingdown(0.1, 1.0, 1e-3);
   const double L = e.cable.length, own = e.cable.EI / L;
   const double spring = 10.0 * own, stuck = 1000.0 * own;
   const double moment = 3.0 * own * 0.1;  // at the clamp when let go
   const double slip = 0.02 * moment;
-  e.effects = {{&kClampFriction,
-                1.0,
-                {{"a.stuck", stuck}, {"a.slip_moment", slip}, {"a.spring", spring}}}};
+  e.effects = {
+      {&kClampFriction, 1.0, {{"a.stuck", stuck}, {"a.slip_moment", slip}, {"a.spring", spring}}}};
   const Record record = simulate(e);
   // Static tip displacement A needs force F = A/(L^3/3EI + L^2/spring); the clamp turns F L/spring.
   const double stiffness = 1.0 / (L * L * L / (3.0 * e.cable.EI) + L * L / spring);
@@ -168,8 +167,7 @@ TEST(ClampPlay, DeadZoneInStatics) {
   const double force = 5e-2 * c.EI / (L * L);
   rod.forces = {{L, Vector3d(force, 0.0, 0.0)}};
   const VectorXd q = loadedEquilibrium(rod), zero = VectorXd::Zero(rod.size());
-  const double tip =
-      rod.pointMotion({0.0, q, zero, zero}, rod.shape().integralTo(L)).position.x();
+  const double tip = rod.pointMotion({0.0, q, zero, zero}, rod.shape().integralTo(L)).position.x();
   const double exact = force * L * L * L / (3.0 * c.EI) + L * (gap + force * L / k);
   EXPECT_NEAR(tip / exact, 1.0, 2.0 * kSmall);
 }

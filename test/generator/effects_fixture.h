@@ -43,11 +43,13 @@ inline RodDynamics weightlessRod(const CableData& cable = effectCable()) {
   return dynamics;
 }
 
-/// A torsional pendulum of that cable without gravity, let go at `angle`.
+/// A torsional pendulum of that cable without gravity, let go at `angle`; with so much eta_GJ that
+/// the cable's own torsional waves are soon gone.
 inline Experiment pendulum(double angle, double duration, double dt) {
   Experiment e;
   e.name = "torsion";
   e.cable = effectCable();
+  e.cable.eta_GJ = 4e-6;
   e.gravity.setZero();
   Disc disc;
   disc.inertia = 2e-5;
@@ -63,6 +65,11 @@ inline Experiment pendulum(double angle, double duration, double dt) {
 /// Inertia of the pendulum's disc with the cable's share.
 inline double pendulumInertia(const Experiment& e) {
   return e.disc->inertia + makeRod(e.cable).rhoJ[2] * e.cable.length / 3.0;
+}
+
+/// Decay [1/s] of the pendulum by eta_GJ.
+inline double pendulumDecay(const Experiment& e) {
+  return e.cable.eta_GJ / (2.0 * e.cable.length * pendulumInertia(e));
 }
 
 /// A small ring-down of that cable without gravity, along x.

@@ -34,7 +34,10 @@ TEST(ExternalDamping, EveryModeDecaysAtHalfTheRate) {
   const double rate = 0.7;
   rod.addEffect(effectOf(kExternalDamping, {{"rate", rate}}));
   const auto modes = modesAbout(rod, VectorXd::Zero(rod.size()));
-  for (int i : {0, 2, 4}) EXPECT_NEAR(-modes[i].real() / (0.5 * rate), 1.0, kSlender) << i;
+  for (int i : {0, 2, 4}) {
+    // Rotary inertia has no part in the drag: (mu d/(4 L))^2 of it, less for lower modes.
+    EXPECT_NEAR(-modes[i].real() / (0.5 * rate), 1.0, 2.0 * kSlender) << i;
+  }
 }
 
 TEST(AirDrag, OneOverAmplitudeIsLinearInTime) {
@@ -51,16 +54,17 @@ TEST(AirDrag, OneOverAmplitudeIsLinearInTime) {
     for (int i = from; i < to; ++i) largest = std::max(largest, std::abs(x[i]));
     return largest;
   };
-  const double w = 1.8751040687119611 * 1.8751040687119611 *
-                   std::sqrt(e.cable.EI / e.cable.rhoA) / (e.cable.length * e.cable.length);
+  const double w = 1.8751040687119611 * 1.8751040687119611 * std::sqrt(e.cable.EI / e.cable.rhoA) /
+                   (e.cable.length * e.cable.length);
   const int period = static_cast<int>(std::lround(2000.0 * std::acos(-1.0) / w));
   const int late = 1200 - period - 1, early = 2 * period;
   const VectorXd with = record.values.col(0), without = plain.values.col(0);
   // What the other losses take is taken out of it: they multiply.
-  const double own = envelope(without, late, late + period) / envelope(without, early, early + period);
-  const double slope = (own / envelope(with, late, late + period) -
-                        1.0 / envelope(with, early, early + period)) /
-                       ((late - early) * 1e-3);
+  const double own =
+      envelope(without, late, late + period) / envelope(without, early, early + period);
+  const double slope =
+      (own / envelope(with, late, late + period) - 1.0 / envelope(with, early, early + period)) /
+      ((late - early) * 1e-3);
   const double exact = 2.0 / (3.0 * std::acos(-1.0)) * 1.204 * Cd * e.cable.diameter * w *
                        meanPower(3) / (e.cable.rhoA * meanPower(2));
   // Envelopes by samples, higher modes of the release (3 %), and the amplitude over which they act.
@@ -74,8 +78,8 @@ TEST(AddedMass, AtTheEnd) {
   ASSERT_EQ(c.masses.size(), 1u);
   RodDynamics rod = weightlessRod(c);
   const double w = modesAbout(rod, VectorXd::Zero(rod.size()))[0].imag();
-  const double exact = std::sqrt(3.0 * c.EI / (std::pow(c.length, 3) * c.rhoA * c.length *
-                                               (ratio + 33.0 / 140.0)));
+  const double exact =
+      std::sqrt(3.0 * c.EI / (std::pow(c.length, 3) * c.rhoA * c.length * (ratio + 33.0 / 140.0)));
   EXPECT_NEAR(w / exact, 1.0, 3e-3);  // Rayleigh's quotient of the static shape is from above
   CableData shorter = effectCable();
   effectOf(kAddedMass, {{"s", 2.0 * c.length}, {"mass", 1.0}})->equip(&shorter);

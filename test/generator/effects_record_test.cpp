@@ -139,7 +139,7 @@ TEST(BaseMotion, PhaseIsAShiftAtTheDominantFrequency) {
   const auto fault =
       effectOf(kBaseMotion, {{"a.amplitude", 1.0}, {"a.phase", 0.4}, {"a.tilt[0]", 0.1}});
   const FrameCurve moved = fault->clampMotion(0, told, 3.0, true);
-  // The dominant line is found to a sixth of a line's width, 1/3 Hz.
+  // The other line leaks little under the window.
   EXPECT_NEAR(moved(1.0).p.x(), told(1.0 + 0.4 / (turn * 5.0)).p.x(), 1e-2 * 0.4 * 0.01);
   EXPECT_NEAR(moved(1.0).R(2, 1), std::sin(0.1), 1e-12);
 }

@@ -8,10 +8,10 @@ namespace cosserat_cable::generator {
 
 /// A sine of the excitation; a sweep where the frequency ends elsewhere.
 struct ExcitationLine {
-  double amplitude = 0.0;        ///< [m]
-  double frequency = 0.0;        ///< at time 0 [Hz]
-  double last_frequency = 0.0;   ///< at the end [Hz]
-  double phase = 0.0;            ///< [rad]
+  double amplitude = 0.0;       ///< [m]
+  double frequency = 0.0;       ///< at time 0 [Hz]
+  double last_frequency = 0.0;  ///< at the end [Hz]
+  double phase = 0.0;           ///< [rad]
 };
 
 /// How a clamp is shaken: along a line and, in proportion, about an axis; it sets in smoothly.

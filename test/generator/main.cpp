@@ -27,7 +27,8 @@ constexpr char kUsage[] =
     "                 torsion-series  torsion at several lengths\n"
     "                 torsion-single  torsion at one length\n"
     "                 six             six records of 3 s\n"
-    "                 effects         a random cable: two ring-downs of different amplitude, plane\n"
+    "                 effects         a random cable: two ring-downs of different amplitude, "
+    "plane\n"
     "                                 and length, torsion, a clamp that is shaken; in DIR/unseen\n"
     "                                 another one that is shaken otherwise\n"
     "                 drive           one record of a cable whose clamp is shaken\n"
@@ -65,8 +66,8 @@ bool parse(const std::string& text, double low, double high, double* value) {
 
 int main(int argc, char** argv) {
   std::map<std::string, std::string> options{
-      {"--seed", "1"},      {"--snr", "40"},    {"--lengths", "5"},   {"--repeats", "3"},
-      {"--longest", "0.5"}, {"--scatter", "0"}, {"--start", "known"}, {"--output", ""},
+      {"--seed", "1"},      {"--snr", "40"},        {"--lengths", "5"},   {"--repeats", "3"},
+      {"--longest", "0.5"}, {"--scatter", "0"},     {"--start", "known"}, {"--output", ""},
       {"--effect", ""},     {"--effect-size", "1"}, {"--effect-set", ""}};
   EffectPlan effects;
   if (argc > 1 && std::string(argv[1]) == "--help") {

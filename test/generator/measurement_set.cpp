@@ -134,8 +134,8 @@ std::string effectsJson(const MeasurementSet& set) {
   for (const EffectChoice& choice : set.effects) {
     names += std::string(names.empty() ? "" : ", ") + "\"" + choice.kind->name + "\"";
     for (const auto& [path, value] : choice.values) {
-      paths += std::string(paths.empty() ? "" : ",") + "\n    \"" +
-               effectPath(*choice.kind, path) + "\": " + number(value);
+      paths += std::string(paths.empty() ? "" : ",") + "\n    \"" + effectPath(*choice.kind, path) +
+               "\": " + number(value);
     }
   }
   return "  \"effects\": [" + names + "],\n  \"effect_parameters\": {" + paths +
@@ -148,8 +148,7 @@ std::string truthJson(const MeasurementSet& set) {
       << ",\n  \"snr_db\": " << number(set.snr)
       << ",\n  \"parameters\": {\"EI\": " << number(set.truth.EI)
       << ", \"eta_EI\": " << number(set.truth.eta_EI) << ", \"GJ\": " << number(set.truth.GJ)
-      << ", \"eta_GJ\": " << number(set.truth.eta_GJ) << ", \"D_E\": " << number(set.D_E)
-      << "},\n"
+      << ", \"eta_GJ\": " << number(set.truth.eta_GJ) << ", \"D_E\": " << number(set.D_E) << "},\n"
       << effectsJson(set) << "  \"sigma\": {";
   for (size_t i = 0; i < set.experiments.size(); ++i) {
     const MeasuredExperiment& e = set.experiments[i];

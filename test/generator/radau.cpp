@@ -202,8 +202,8 @@ RadauCounts integrateRadau(
         // A kink: the matrices of where the step ends, and the same iterate.
         velocities = (h * a * tableau.A.transpose()).colwise() + now.v;
         positions = h * h * a * tableau.A2.transpose();
-        factors.linearise(system, {now.t + h, now.q + h * now.v + positions.col(2),
-                                   velocities.col(2), a.col(2)});
+        factors.linearise(
+            system, {now.t + h, now.q + h * now.v + positions.col(2), velocities.col(2), a.col(2)});
         factors.factorise(tableau, h);
         stale = true;
         ++renewed;

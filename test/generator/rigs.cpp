@@ -91,8 +91,8 @@ class Recorder {
     for (; next_ < times_.size() && times_[next_] <= end.t; ++next_) {
       const double t = times_[next_] - begin.t;
       for (size_t c = 0; c < stations_.size(); ++c) {
-        (*values_)(next_, c) = hermite(left[c], right_[c], end.t - begin.t, t,
-                                       derivativeOf(channels_[c].quantity));
+        (*values_)(next_, c) =
+            hermite(left[c], right_[c], end.t - begin.t, t, derivativeOf(channels_[c].quantity));
       }
     }
   }
@@ -313,8 +313,8 @@ Record simulate(const Experiment& experiment, const Accuracy& accuracy) {
   size = (released - rest).cwiseProduct(rod.scale()).norm() /
          std::sqrt(static_cast<double>(rod.size()));
   if (experiment.drive) {
-    size = std::max(size, kDrivenScale * largestDisplacement(*experiment.drive) /
-                              experiment.cable.length);
+    size = std::max(
+        size, kDrivenScale * largestDisplacement(*experiment.drive) / experiment.cable.length);
   }
 
   // Times of the motion; dense ones where a sensor looks between the samples.

@@ -31,10 +31,10 @@ struct Experiment {
   FrameMotion a;
   std::optional<Disc> disc;
   bool guided = false;  ///< the disc turns about and slides along clamp a's axis only
-  std::optional<Eigen::Vector3d> held;  ///< where the end is held before it is let go [m]
-  double twisted = 0.0;                 ///< angle at which the disc is held [rad]
-  std::optional<Excitation> drive;  ///< starts at `a`
-  std::optional<FrameMotion> b;     ///< fixed
+  std::optional<Eigen::Vector3d> held;      ///< where the end is held before it is let go [m]
+  double twisted = 0.0;                     ///< angle at which the disc is held [rad]
+  std::optional<Excitation> drive;          ///< starts at `a`
+  std::optional<FrameMotion> b;             ///< fixed
   std::vector<Eigen::Vector3d> tip_forces;  ///< world [N]
   std::vector<EffectChoice> effects;
   std::vector<Channel> channels;

@@ -57,7 +57,7 @@ VectorXd RodDynamics::scale() const {
 
 Vector3d RodDynamics::hingePart(const VectorXd& x) const {
   Vector3d part = Vector3d::Zero();
-  part.head(hinge_) = x.tail(hinge_);
+  for (int j = 0; j < hinge_; ++j) part[hingeAxis(j)] = x[x.size() - hinge_ + j];
   return part;
 }
 
@@ -93,8 +93,7 @@ RodDynamics::Kinematics RodDynamics::kinematics(double t, const VectorXd& q, con
     R_start = R_clamp * turn.R;
     k.swivel = R_clamp * turn.J;
     w_start += spin;
-    alpha_start +=
-        base.w.cross(spin) + R_clamp * turn.acceleration(k.turn.rate, hingePart(a));
+    alpha_start += base.w.cross(spin) + R_clamp * turn.acceleration(k.turn.rate, hingePart(a));
   }
   shape_.rotations(q, &k.frames);
   k.frames = (R_start * k.frames).eval();
@@ -191,8 +190,8 @@ RodDynamics::Internal RodDynamics::internal(double t, const Kinematics& k) const
   result.n = load * S;
   result.force = load.rowwise().sum();
   if (station_s_.size() > 0) {
-    const Points force =
-        stationForces(t, k, stationPositions(k), stationVelocities(k)) * station_weights_.asDiagonal();
+    const Points force = stationForces(t, k, stationPositions(k), stationVelocities(k)) *
+                         station_weights_.asDiagonal();
     result.n += force * station_integral_;
     result.force += force.rowwise().sum();
   }
@@ -227,7 +226,7 @@ VectorXd RodDynamics::residual(double t, const VectorXd& q, const VectorXd& v, c
   }
   if (hinge_ > 0) {
     const Vector3d rows = clampMoment(0, k.turn) - k.swivel.transpose() * load.moment;
-    result.tail(hinge_) = rows.head(hinge_);
+    for (int j = 0; j < hinge_; ++j) result[size() - hinge_ + j] = rows[hingeAxis(j)];
   }
   return result;
 }
@@ -255,7 +254,8 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
     }
     turn[d].setZero(P, n);
     turn[d].leftCols(nk).noalias() = S * integrand;
-    for (int j = 0; j < hinge_; ++j) turn[d].col(n - hinge_ + j).setConstant(k.swivel(d, j));
+    for (int j = 0; j < hinge_; ++j)
+      turn[d].col(n - hinge_ + j).setConstant(k.swivel(d, hingeAxis(j)));
   }
   for (int d = 0; d < 3; ++d) {
     const int e = (d + 1) % 3, f = (d + 2) % 3;
@@ -304,7 +304,7 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
         VectorXd(w.array() * load.n.row(e).transpose().array()).asDiagonal() * slope[f];
     moment_change[d].noalias() = S.topRows(N).transpose() * lever;  // times the weights
     for (int j = 0; j < hinge_; ++j) {
-      K->row(n - hinge_ + j) -= k.swivel(d, j) * lever.colwise().sum();
+      K->row(n - hinge_ + j) -= k.swivel(d, hingeAxis(j)) * lever.colwise().sum();
     }
   }
   for (int c = 0; c < 6; ++c) {

@@ -39,7 +39,7 @@ struct PointMotion {
 /// follow from the inertia of all that lies beyond a section, and are weighed against the section
 /// laws in the sense of Galerkin (d'Alembert's principle in minimal coordinates). Where an effect
 /// lets clamp a give way, the rotation vector of the section there against the clamp (two
-/// components for bending, the third for torsion) follows the strains among the coordinates.
+/// components for bending, one for torsion) follows the strains among the coordinates.
 class RodDynamics : public SecondOrderSystem {
  public:
   /// @param breaks further arc lengths [m] at which elements end, besides those of point masses.
@@ -126,12 +126,13 @@ class RodDynamics : public SecondOrderSystem {
   void lineariseEffects(double t, const Kinematics& k, const Eigen::MatrixXd* slope,
                         Eigen::MatrixXd* D, Eigen::MatrixXd* K) const;
   Eigen::Vector3d hingePart(const Eigen::VectorXd& x) const;
+  int hingeAxis(int j) const { return hinge_ == 1 ? 2 : j; }
 
   Rod rod_;
   RodShape shape_;
   std::vector<double> point_mass_;  ///< at element ends [kg]
   std::vector<std::shared_ptr<Effect>> effects_;
-  int hinge_ = 0;       ///< rotations of the section at clamp a: 0, 2 or 3
+  int hinge_ = 0;       ///< rotations of the section at clamp a: torsion, bending, or all three
   double ahead_ = 0.0;  ///< the step that is about to be tried [s]
   // Stations of loads: places, weights, rows that integrate to them and that interpolate at them.
   Eigen::VectorXd station_s_, station_weights_;

@@ -1,5 +1,5 @@
-// What effects add to the rod's equations: stations of loads, the clamps' turns, and tangents, which
-// are differences because they only serve Newton's iteration.
+// What effects add to the rod's equations: stations of loads, the clamps' turns, and tangents,
+// which are differences because they only serve Newton's iteration.
 
 #include <algorithm>
 
@@ -16,20 +16,18 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 // Steps of the differences, in curvature times length, lengths, and so on.
-constexpr double kStrainStep = 1e-5;
+constexpr double kStrainStep = 1e-8;
 constexpr double kPositionStep = 1e-7;
 constexpr double kVelocityStep = 1e-5;  // [m/s over m]
-constexpr double kAngleStep = 1e-7;     // [rad]
+constexpr double kAngleStep = 1e-10;    // [rad]: far less than what turns a slip into a stick
 constexpr double kRateStep = 1e-4;      // [rad/s]
 
 }  // namespace
 
 void RodDynamics::addEffect(std::shared_ptr<Effect> effect) {
-  if (effect->twistsClamp(0)) {
-    hinge_ = 3;
-  } else if (effect->bendsClamp(0)) {
-    hinge_ = std::max(hinge_, 2);
-  }
+  const bool twists = hinge_ % 2 == 1 || effect->twistsClamp(0);
+  const bool bends = hinge_ >= 2 || effect->bendsClamp(0);
+  hinge_ = (twists ? 1 : 0) + (bends ? 2 : 0);
   disc.dashpot += effect->discDashpot();
   const int count = effect->stations();
   if (count > station_s_.size()) {
@@ -154,8 +152,13 @@ void RodDynamics::lineariseEffects(double t, const Kinematics& k, const MatrixXd
   if (hinge_ > 0) {
     Matrix3d spring, dashpot;
     lineariseClamp(0, k.turn, &spring, &dashpot);
-    K->bottomRightCorner(hinge_, hinge_) += spring.topLeftCorner(hinge_, hinge_);
-    D->bottomRightCorner(hinge_, hinge_) += dashpot.topLeftCorner(hinge_, hinge_);
+    const int first = size() - hinge_;
+    for (int i = 0; i < hinge_; ++i) {
+      for (int j = 0; j < hinge_; ++j) {
+        (*K)(first + i, first + j) += spring(hingeAxis(i), hingeAxis(j));
+        (*D)(first + i, first + j) += dashpot(hingeAxis(i), hingeAxis(j));
+      }
+    }
   }
 
   if (station_s_.size() == 0) return;
@@ -168,10 +171,10 @@ void RodDynamics::lineariseEffects(double t, const Kinematics& k, const MatrixXd
       Points low = rates == 0 ? position : velocity, high = low;
       low.row(e).array() -= step;
       high.row(e).array() += step;
-      const Points change = rates == 0 ? Points(stationForces(t, k, high, velocity) -
-                                                stationForces(t, k, low, velocity))
-                                       : Points(stationForces(t, k, position, high) -
-                                                stationForces(t, k, position, low));
+      const Points change =
+          rates == 0
+              ? Points(stationForces(t, k, high, velocity) - stationForces(t, k, low, velocity))
+              : Points(stationForces(t, k, position, high) - stationForces(t, k, position, low));
       if (change.cwiseAbs().maxCoeff() == 0.0) continue;
       MatrixXd& target = rates == 0 ? *K : *D;
       for (int d = 0; d < 3; ++d) {

@@ -14,10 +14,10 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-12;        // of the Newton step in units of scale()
-constexpr double kLongestStep = 0.3;        // likewise: beyond it the linear model says little
-constexpr double kSamePosition = 1e-11;     // of the length
-constexpr double kAbruptTolerance = 1e-10;  // likewise, where the residual has kinks
+constexpr double kTolerance = 1e-12;       // of the Newton step in units of scale()
+constexpr double kLongestStep = 0.3;       // likewise: beyond it the linear model says little
+constexpr double kSamePosition = 1e-11;    // of the length
+constexpr double kAbruptTolerance = 1e-8;  // likewise, where the residual has kinks
 constexpr int kMaxAbruptIterations = 300;
 constexpr int kMaxCuts = 6;  // halvings of a step
 constexpr int kStages = 12;  // of a load or a displacement that grows
@@ -116,6 +116,7 @@ VectorXd pulled(RodDynamics& rod, const VectorXd& rest, const Eigen::RowVectorXd
   const bool abrupt = rod.abrupt();
   const int most = abrupt ? kMaxAbruptIterations : kMaxIterations;
   const double tolerance = abrupt ? kAbruptTolerance : kTolerance;
+  const double same = abrupt ? kAbruptTolerance : kSamePosition;
   for (int iteration = 0; iteration < most; ++iteration) {
     // q answers the residual and three unit forces; the forces close the gap.
     MatrixXd right(n, 4);
@@ -149,7 +150,7 @@ VectorXd pulled(RodDynamics& rod, const VectorXd& rest, const Eigen::RowVectorXd
     const double damping = std::min(1.0, kLongestStep / size);
     q += damping * step;
     rod.forces.back().second += damping * unit * change;
-    if (size < tolerance && missing.norm() < kSamePosition * L) return q;
+    if (size < tolerance && missing.norm() < same * L) return q;
   }
   throw std::runtime_error("no held equilibrium found");
 }

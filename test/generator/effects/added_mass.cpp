@@ -1,5 +1,5 @@
-// extensions.added_mass: a point mass on the axis; an element ends there. A specimen that ends before
-// it does not have it.
+// extensions.added_mass: a point mass on the axis; an element ends there. A specimen that ends
+// before it does not have it.
 
 #include "kinds.h"
 

@@ -1,5 +1,5 @@
-// extensions.bend_twist_coupling: off-diagonal stiffness c1 sqrt(EI GJ) between K1 and K3, c2 between
-// K2 and K3.
+// extensions.bend_twist_coupling: off-diagonal stiffness c1 sqrt(EI GJ) between K1 and K3, c2
+// between K2 and K3.
 
 #include <cmath>
 

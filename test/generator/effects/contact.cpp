@@ -1,7 +1,7 @@
 // extensions.contact: a plane or a peg in clamp a's frame, moving with it, by a penalty at 120
-// stations along the rod. `stiffness` is per contact point as the library has one per element: 40 of
-// them a length. The force sets in as a parabola over 0.1 mm and grows by 0.5 s/m times the speed of
-// closing, like the library's law. Without peg.radius it is a plane.
+// stations along the rod. `stiffness` is per contact point as the library has one per element: 40
+// of them a length. The force sets in as a parabola over 0.1 mm and grows by 0.5 s/m times the
+// speed of closing, like the library's law. Without peg.radius it is a plane.
 
 #include <algorithm>
 #include <cmath>
@@ -42,8 +42,7 @@ class Contact : public Effect {
     for (int i = 0; i < force->cols(); ++i) {
       const Vector3d lever = at.position.col(i) - a.p;
       const Vector3d x = a.R.transpose() * lever;
-      const Vector3d v =
-          a.R.transpose() * (Vector3d(at.velocity.col(i)) - a.v - a.w.cross(lever));
+      const Vector3d v = a.R.transpose() * (Vector3d(at.velocity.col(i)) - a.v - a.w.cross(lever));
       Vector3d out = axis_;
       double distance = axis_.dot(x);
       if (peg_) {

@@ -25,7 +25,8 @@ class Drift : public Effect {
 };
 
 EffectValues defaults(const EffectScale&, double size) {
-  return {{"EI", -0.08 * size}, {"eta_EI", 0.4 * size}, {"GJ", -0.08 * size}, {"eta_GJ", 0.4 * size}};
+  return {
+      {"EI", -0.08 * size}, {"eta_EI", 0.4 * size}, {"GJ", -0.08 * size}, {"eta_GJ", 0.4 * size}};
 }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site) {

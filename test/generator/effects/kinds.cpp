@@ -7,12 +7,25 @@
 namespace cosserat_cable::generator {
 
 const std::vector<const EffectKind*>& effectKinds() {
-  static const std::vector<const EffectKind*> kinds = {
-      &kMaxwell,         &kStructuralDamping, &kSectionFriction, &kNonlinearStiffness,
-      &kAnisotropy,      &kRestCurvature,     &kBendTwistCoupling, &kClampCompliance,
-      &kClampDamping,    &kClampFriction,     &kClampPlay,       &kAirDrag,
-      &kExternalDamping, &kAddedMass,         &kContact,         &kDrift,
-      &kClock,           &kSensor,            &kBaseMotion};
+  static const std::vector<const EffectKind*> kinds = {&kMaxwell,
+                                                       &kStructuralDamping,
+                                                       &kSectionFriction,
+                                                       &kNonlinearStiffness,
+                                                       &kAnisotropy,
+                                                       &kRestCurvature,
+                                                       &kBendTwistCoupling,
+                                                       &kClampCompliance,
+                                                       &kClampDamping,
+                                                       &kClampFriction,
+                                                       &kClampPlay,
+                                                       &kAirDrag,
+                                                       &kExternalDamping,
+                                                       &kAddedMass,
+                                                       &kContact,
+                                                       &kDrift,
+                                                       &kClock,
+                                                       &kSensor,
+                                                       &kBaseMotion};
   return kinds;
 }
 

@@ -1,5 +1,5 @@
-// extensions.nonlinear_stiffness: M = EI kappa (1 + x kappa^2/(kappa^2 + c^2)) along the bending part
-// of the curvature, kappa its size.
+// extensions.nonlinear_stiffness: M = EI kappa (1 + x kappa^2/(kappa^2 + c^2)) along the bending
+// part of the curvature, kappa its size.
 
 #include "kinds.h"
 
