@@ -22,7 +22,7 @@ Vector3d acrossClamp(const Experiment& e, const Vector3d& position) {
 
 /// What default sizes are measured by.
 EffectScale scaleOf(const std::vector<Experiment>& experiments, const CableData& truth) {
-  constexpr double kNear = 0.5;  // of the amplitude: how far beyond the rest an obstacle is
+  constexpr double kNear = 0.4;  // of the amplitude: how far beyond the rest an obstacle is
   EffectScale scale;
   scale.cable = truth;
   scale.shortest = truth.length;
@@ -124,7 +124,11 @@ void applyEffects(const EffectPlan& plan, std::vector<Experiment>* experiments,
     set->effects = chooseEffects(plan.names, plan.size, scaleOf(*experiments, set->truth));
   }
   for (const std::string& assignment : plan.assignments) setEffectValue(assignment, &set->effects);
-  for (Experiment& e : *experiments) e.effects = set->effects;
+  for (Experiment& e : *experiments) {
+    e.effects = set->effects;
+    // Where a force brings the cable as it is; the plain one's place may be out of its reach.
+    if (any && e.held && e.pull.norm() > 0.0) e.held = pulledEnd(e, e.pull, e.pull.norm());
+  }
 }
 
 EffectSets effectSets(std::uint64_t seed, double snr, const EffectPlan& effects) {

@@ -135,6 +135,7 @@ TEST(ClampFriction, TakesWhatItsLoopTakesFromARingDown) {
   const double slip = 0.02 * moment;
   e.effects = {
       {&kClampFriction, 1.0, {{"a.stuck", stuck}, {"a.slip_moment", slip}, {"a.spring", spring}}}};
+  e.held = pulledEnd(e, Vector3d::UnitX(), 0.1 * L);
   const Record record = simulate(e);
   // Static tip displacement A needs force F = A/(L^3/3EI + L^2/spring); the clamp turns F L/spring.
   const double stiffness = 1.0 / (L * L * L / (3.0 * e.cable.EI) + L * L / spring);

@@ -52,6 +52,7 @@ Experiment ringdown(const std::string& name, const CableData& cable, double tilt
   e.a.R = frameAlong(axis, random);
   if (std::isnan(roll)) roll = random->uniform(-kPi, kPi);
   const Vector3d pull = e.a.R * Vector3d(std::cos(roll), std::sin(roll), 0.0);
+  e.pull = amplitude * cable.length * pull;
   e.held = pulledEnd(e, pull, amplitude * cable.length);
   addPositions(cable.length * random->uniform(0.4, 0.8), &e);
   const double rate = random->logUniform(200.0, 1000.0);

@@ -31,7 +31,10 @@ struct Experiment {
   FrameMotion a;
   std::optional<Disc> disc;
   bool guided = false;  ///< the disc turns about and slides along clamp a's axis only
-  std::optional<Eigen::Vector3d> held;      ///< where the end is held before it is let go [m]
+  std::optional<Eigen::Vector3d> held;  ///< where the end is held before it is let go [m]
+  /// How far from rest and in which direction it was pulled to get there [m]; where a set has
+  /// effects, `held` is where it gets with them. 0: `held` says all.
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
   double twisted = 0.0;                     ///< angle at which the disc is held [rad]
   std::optional<Excitation> drive;          ///< starts at `a`
   std::optional<FrameMotion> b;             ///< fixed
