@@ -22,13 +22,13 @@ Vector3d acrossClamp(const Experiment& e, const Vector3d& position) {
 
 /// What default sizes are measured by.
 EffectScale scaleOf(const std::vector<Experiment>& experiments, const CableData& truth) {
-  constexpr double kNear = 0.4;  // of the amplitude: how far beyond the rest an obstacle is
+  constexpr double kNear = 0.25;  // of the amplitude: how far beyond the rest an obstacle is
   EffectScale scale;
   scale.cable = truth;
   scale.shortest = truth.length;
   scale.frequency = bendingFrequency(truth);
   scale.torsion = scale.frequency;
-  scale.amplitude = 0.02;
+  scale.amplitude = 0.0;
   Vector3d pull = Vector3d::UnitX();
   std::vector<Vector3d> places;  // of tips, at rest and where they start
   for (const Experiment& e : experiments) {
@@ -48,6 +48,7 @@ EffectScale scaleOf(const std::vector<Experiment>& experiments, const CableData&
       pull = acrossClamp(e, *e.held - tip + e.a.p);
     }
   }
+  if (scale.amplitude == 0.0) scale.amplitude = 0.1;  // nothing is let go
   pull.normalize();
   double least = 0.0;
   for (const Vector3d& place : places) least = std::min(least, pull.dot(place));
@@ -56,15 +57,15 @@ EffectScale scaleOf(const std::vector<Experiment>& experiments, const CableData&
   return scale;
 }
 
-/// A clamp that hangs down with a tilt, shaken across.
-Experiment driven(const std::string& name, const CableData& cable, double tilt,
+/// A clamp that hangs down with a tilt, shaken across: at an angle `roll` from a1 [rad].
+Experiment driven(const std::string& name, const CableData& cable, double tilt, double roll,
                   const std::vector<ExcitationLine>& lines, double duration, Random* random) {
   Experiment e;
   e.name = name;
   e.kind = "drive";
   e.cable = cable;
   e.a.p = anyPlace(random);
-  const double heading = random->uniform(-kPi, kPi), roll = random->uniform(-kPi, kPi);
+  const double heading = random->uniform(-kPi, kPi);
   const Vector3d axis(std::sin(tilt) * std::cos(heading), std::sin(tilt) * std::sin(heading),
                       -std::cos(tilt));
   e.a.R = frameAlong(axis, random);
@@ -94,9 +95,9 @@ CableData quietCable(Random* random) {
   return cable;
 }
 
-Experiment sweep(const CableData& cable, double duration, Random* random) {
+Experiment sweep(const CableData& cable, double roll, double duration, Random* random) {
   const double f = bendingFrequency(cable) / (2.0 * kPi);
-  return driven("sweep", cable, random->uniform(0.1, 0.4),
+  return driven("sweep", cable, random->uniform(0.1, 0.4), roll,
                 {{0.015 * cable.length, 0.6 * f, 1.8 * f, 0.0}}, duration, random);
 }
 
@@ -150,13 +151,14 @@ EffectSets effectSets(std::uint64_t seed, double snr, const EffectPlan& effects)
   all.push_back(ringdown("ringdown_large", at(cable, 0.8 * L), random.uniform(0.05, 0.3),
                          random.uniform(0.15, 0.22), 0.8 * duration, &random, roll));
   all.push_back(torsion("torsion", cable, 0.6 * L, disc, random.chance(0.5), 1.5, &random));
-  all.push_back(sweep(cable, kDriven, &random));
+  // Near the larger ring-down's plane, where an obstacle would be.
+  all.push_back(sweep(cable, roll + random.uniform(-0.8, 0.8), kDriven, &random));
   const CableData other = at(cable, 0.9 * L);
   const double g = f / 0.81;
-  all.push_back(driven("unseen", other, random.uniform(0.2, 0.6),
-                       {{0.02 * L, 0.45 * g, 0.45 * g, random.uniform(0.0, 6.0)},
-                        {0.012 * L, 0.93 * g, 0.93 * g, random.uniform(0.0, 6.0)},
-                        {0.006 * L, 1.4 * g, 1.4 * g, random.uniform(0.0, 6.0)}},
+  all.push_back(driven("unseen", other, random.uniform(0.1, 0.4), roll + random.uniform(-0.8, 0.8),
+                       {{0.025 * L, 0.45 * g, 0.45 * g, random.uniform(0.0, 6.0)},
+                        {0.025 * L, 0.95 * g, 0.95 * g, random.uniform(0.0, 6.0)},
+                        {0.008 * L, 1.4 * g, 1.4 * g, random.uniform(0.0, 6.0)}},
                        kDriven, &random));
   applyEffects(effects, &all, &sets.seen);
   sets.unseen = sets.seen;
@@ -170,7 +172,7 @@ MeasurementSet driveSet(std::uint64_t seed, double snr, const EffectPlan& effect
   Random random(seed);
   const CableData cable = quietCable(&random);
   MeasurementSet set = started("drive", seed, snr, cable, &random);
-  std::vector<Experiment> all = {sweep(cable, 3.0, &random)};
+  std::vector<Experiment> all = {sweep(cable, random.uniform(-kPi, kPi), 3.0, &random)};
   applyEffects(effects, &all, &set);
   return finished(set, all, &random);
 }
@@ -190,10 +192,10 @@ MeasurementSet archSet(std::uint64_t seed, double snr, const EffectPlan& effects
     e.kind = "drive";
     e.cable = cable;
     e.a.p = anyPlace(&random);
-    e.a.R = frameAlong(Vector3d::UnitZ(), &random);
+    e.a.R = frameAlong(-Vector3d::UnitZ(), &random);  // a heavy one that stands topples
     const double heading = random.uniform(-kPi, kPi);
     const Vector3d side = e.a.R * Vector3d(std::cos(heading), std::sin(heading), 0.0);
-    const Vector3d axis = Vector3d::UnitZ().cross(side);
+    const Vector3d axis = -Vector3d::UnitZ().cross(side);
     FrameMotion b;
     b.p = e.a.p + kApart * L * side;
     b.R = Eigen::AngleAxisd(kPi, axis).toRotationMatrix() * e.a.R;
@@ -204,7 +206,7 @@ MeasurementSet archSet(std::uint64_t seed, double snr, const EffectPlan& effects
     drive.axis = axis;
     const double low = across ? 0.2 : 0.5, high = across ? 0.8 : 1.4;
     drive.lines = {{0.012 * L, low * f, high * f, 0.0}};
-    drive.duration = 2.0;
+    drive.duration = 1.2;
     e.drive = drive;
     addPositions(0.5 * L, &e);
     e.channels.erase(e.channels.begin(), e.channels.begin() + 3);  // the end is held

@@ -17,8 +17,8 @@ EffectSets effectSets(std::uint64_t seed, double snr, const EffectPlan& effects)
 /// The sweep alone.
 MeasurementSet driveSet(std::uint64_t seed, double snr, const EffectPlan& effects);
 
-/// An arch between clamps that stand upright half a length apart; a is swept in its plane and
-/// across it.
+/// An arch that hangs between clamps half a length apart, both tangents vertical; a is swept in its
+/// plane and across it.
 MeasurementSet archSet(std::uint64_t seed, double snr, const EffectPlan& effects);
 
 /// Quasi-static records: a force at the tip of a hanging cable goes to and fro twice along a1, and

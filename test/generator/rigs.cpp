@@ -216,7 +216,11 @@ VectorXd archRest(RodDynamics* rod) {
   const FrameMotion b = held(0.0);
   const Eigen::Matrix3d R = a.R.transpose() * b.R;
   const Vector3d place = a.R.transpose() * (b.p - a.p);
-  const Eigen::AngleAxisd turn(R);
+  Eigen::AngleAxisd turn(R);
+  if (turn.axis().cross(Vector3d::UnitZ()).dot(place) < 0.0) {
+    // Half a turn has two axes; the arc has to lead to where the end is.
+    turn = Eigen::AngleAxisd(2.0 * std::acos(-1.0) - turn.angle(), -turn.axis());
+  }
   const double L = rod->rod().length;
   const auto arc = [&](double part) -> Vector3d {  // its end in clamp a's frame
     const double angle = part * turn.angle();
@@ -225,19 +229,23 @@ VectorXd archRest(RodDynamics* rod) {
     return L / angle * (std::sin(angle) * Vector3d::UnitZ() + (1.0 - std::cos(angle)) * side);
   };
   const Vector3d beside = place - arc(1.0);
-  VectorXd q = VectorXd::Zero(rod->size());
+  VectorXd q = VectorXd::Zero(rod->size()), before = q;
   for (int stage = 0; stage <= kArcs; ++stage) {
     const double part = static_cast<double>(stage) / kArcs;
     FrameMotion pose = b;
     pose.p = a.p + a.R * (arc(part) + part * beside);
     pose.R = a.R * Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
     rod->holds.front().pose = [pose](double) { return pose; };
-    if (stage > 0) {
-      // The next arc is the guess: stiff holds leave Newton's method no other way.
+    // Stiff holds leave Newton's method no way but near the answer: the next arc, then the trend.
+    VectorXd guess = q;
+    if (stage == 1) {
       const Vector3d K = turn.angle() / L / kArcs * turn.axis();
-      for (int c = 0; c < 3; ++c) q[rod->shape().offset(c)] += K[c];
+      for (int c = 0; c < 3; ++c) guess[rod->shape().offset(c)] += K[c];
+    } else if (stage > 1) {
+      guess += q - before;
     }
-    q = equilibrium(*rod, q);
+    before = q;
+    q = equilibrium(*rod, guess);
     remember(*rod, q);
   }
   rod->holds.front().pose = held;

@@ -14,10 +14,11 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int kMaxIterations = 60;
-constexpr double kTolerance = 1e-12;       // of the Newton step in units of scale()
-constexpr double kLongestStep = 0.3;       // likewise: beyond it the linear model says little
-constexpr double kSamePosition = 1e-11;    // of the length
-constexpr double kAbruptTolerance = 1e-8;  // likewise, where the residual has kinks
+constexpr double kTolerance = 1e-12;        // of the Newton step in units of scale()
+constexpr double kLongestStep = 0.3;        // likewise: beyond it the linear model says little
+constexpr double kSamePosition = 1e-11;     // of the length
+constexpr double kClampedTolerance = 1e-9;  // likewise, with both ends clamped
+constexpr double kAbruptTolerance = 1e-8;   // likewise, where the residual has kinks
 constexpr int kMaxAbruptIterations = 300;
 constexpr int kMaxCuts = 6;  // halvings of a step
 constexpr int kStages = 12;  // of a load or a displacement that grows
@@ -62,25 +63,28 @@ void remember(RodDynamics& rod, const VectorXd& q, double t) {
 
 VectorXd equilibrium(RodDynamics& rod, const VectorXd& guess, double t) {
   const Settled settled(&rod);
-  const bool abrupt = rod.abrupt();
+  const bool abrupt = rod.abrupt(), searches = abrupt && rod.holds.empty();
+  // A clamp as stiff as a hold rounds to more than the tolerance of a rod that hangs.
+  const bool clamped = !rod.holds.empty() && rod.holds.front().position[2];
+  const double tolerance = abrupt ? kAbruptTolerance : clamped ? kClampedTolerance : kTolerance;
   VectorXd q = guess;
   const VectorXd scale = rod.scale();
   VectorXd residual = staticResidual(rod, t, q);
-  for (int iteration = 0; iteration < (abrupt ? kMaxAbruptIterations : kMaxIterations);
+  for (int iteration = 0; iteration < (abrupt || clamped ? kMaxAbruptIterations : kMaxIterations);
        ++iteration) {
     const VectorXd step = -tangent(rod, t, q).partialPivLu().solve(residual);
     const double size = step.cwiseProduct(scale).norm();
     if (!std::isfinite(size)) break;
     double part = std::min(1.0, kLongestStep / size);
     VectorXd next = staticResidual(rod, t, q + part * step);
-    // Across a kink the whole step may lead nowhere.
-    for (int cut = 0; abrupt && cut < kMaxCuts && next.norm() > residual.norm(); ++cut) {
+    // Across a kink the whole step may lead nowhere; a stiff hold's residual says nothing of that.
+    for (int cut = 0; searches && cut < kMaxCuts && next.norm() > residual.norm(); ++cut) {
       part *= 0.5;
       next = staticResidual(rod, t, q + part * step);
     }
     q += part * step;
     residual = next;
-    if (size < (abrupt ? kAbruptTolerance : kTolerance)) return q;
+    if (size < tolerance) return q;
   }
   throw std::runtime_error("no equilibrium found");
 }

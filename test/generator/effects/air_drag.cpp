@@ -1,6 +1,8 @@
 // extensions.air_drag: -1/2 rho Cd d |v_n| v_n per length, v_n the part of the world velocity
 // across the axis, at stations that are not the rod's own nodes.
 
+#include <algorithm>
+
 #include "kinds.h"
 
 namespace cosserat_cable::generator {
@@ -27,8 +29,12 @@ class AirDrag : public Effect {
 
 EffectValues defaults(const EffectScale& scale, double size) {
   // Takes a third of the larger ring-down's amplitude in ten swings, small ones hardly show it.
+  // What that takes of a thick cable no cylinder has (Cd 1 to 2): the bound keeps it to slender
+  // ones.
+  constexpr double kLargest = 60.0;
   const CableData& c = scale.cable;
-  return {{"Cd", 0.1 * size * c.rhoA / (kAir * c.diameter * scale.amplitude * c.length)}};
+  const double Cd = 0.1 * c.rhoA / (kAir * c.diameter * scale.amplitude * c.length);
+  return {{"Cd", size * std::min(kLargest, Cd)}};
 }
 
 std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site) {
