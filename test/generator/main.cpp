@@ -5,8 +5,11 @@
 #include <cstdlib>
 #include <exception>
 #include <map>
+#include <stdexcept>
 #include <string>
 
+#include "effect_sets.h"
+#include "effects/kinds.h"
 #include "sample_sets.h"
 
 namespace {
@@ -16,6 +19,7 @@ using namespace cosserat_cable::generator;
 constexpr char kUsage[] =
     "usage: rig_generator RIG --output DIR [--seed N] [--snr DB] [--lengths N] [--repeats N]\n"
     "                        [--longest M] [--scatter X] [--start known|unknown]\n"
+    "                        [--effect NAME]... [--effect-size X] [--effect-set KEY=VALUE]...\n"
     "Writes a measurement set with its truth (truth.json) into DIR.\n"
     "  RIG            random          a random cable: two ring-downs, torsion at 3 or 4 lengths\n"
     "                 ringdowns       one or two short ring-downs of a random cable\n"
@@ -23,6 +27,13 @@ constexpr char kUsage[] =
     "                 torsion-series  torsion at several lengths\n"
     "                 torsion-single  torsion at one length\n"
     "                 six             six records of 3 s\n"
+    "                 effects         a random cable: two ring-downs of different amplitude, "
+    "plane\n"
+    "                                 and length, torsion, a clamp that is shaken; in DIR/unseen\n"
+    "                                 another one that is shaken otherwise\n"
+    "                 drive           one record of a cable whose clamp is shaken\n"
+    "                 arch            the same with the other end held, as an arch\n"
+    "                 bend            slow bending by a force at the tip, to and fro, two planes\n"
     "  --seed N       of all that is random (1)\n"
     "  --snr DB       signal to noise, rms (40)\n"
     "  --lengths N    of torsion-series (5)\n"
@@ -32,7 +43,12 @@ constexpr char kUsage[] =
     "                 deviation from record to record, relative, of torsion-* (0)\n"
     "  --start S      of ringdowns: unknown where the sensor is switched on while the cable "
     "swings\n"
-    "                 already (known)\n";
+    "                 already (known)\n"
+    "  --effect NAME  what the rod or the record has beyond the set's statement; may be repeated;\n"
+    "                 none (default) or one of those below\n"
+    "  --effect-size X  times the effects' default sizes (1); 0: the plain rod\n"
+    "  --effect-set KEY=VALUE  one number of an effect, KEY as truth.json has it without\n"
+    "                 extensions. or faults.: air_drag.Cd=2; may be repeated\n";
 
 int wrong(const std::string& what) {
   std::fprintf(stderr, "rig_generator: %s\n%s", what.c_str(), kUsage);
@@ -50,10 +66,15 @@ bool parse(const std::string& text, double low, double high, double* value) {
 
 int main(int argc, char** argv) {
   std::map<std::string, std::string> options{
-      {"--seed", "1"},      {"--snr", "40"},    {"--lengths", "5"},   {"--repeats", "3"},
-      {"--longest", "0.5"}, {"--scatter", "0"}, {"--start", "known"}, {"--output", ""}};
+      {"--seed", "1"},      {"--snr", "40"},        {"--lengths", "5"},   {"--repeats", "3"},
+      {"--longest", "0.5"}, {"--scatter", "0"},     {"--start", "known"}, {"--output", ""},
+      {"--effect", ""},     {"--effect-size", "1"}, {"--effect-set", ""}};
+  EffectPlan effects;
   if (argc > 1 && std::string(argv[1]) == "--help") {
     std::fputs(kUsage, stdout);
+    std::printf("  effects:");
+    for (const EffectKind* kind : effectKinds()) std::printf(" %s", kind->name);
+    std::printf("\n");
     return 0;
   }
   if (argc < 2) return wrong("no rig given");
@@ -61,6 +82,8 @@ int main(int argc, char** argv) {
     if (options.count(argv[i]) == 0) return wrong(std::string("unknown option ") + argv[i]);
     if (i + 1 == argc) return wrong(std::string("no value for ") + argv[i]);
     options[argv[i]] = argv[i + 1];
+    if (std::string(argv[i]) == "--effect") effects.names.push_back(argv[i + 1]);
+    if (std::string(argv[i]) == "--effect-set") effects.assignments.push_back(argv[i + 1]);
   }
   double seed = 0.0, snr = 0.0, lengths = 0.0, repeats = 0.0;
   if (!parse(options["--seed"], 0.0, 1e9, &seed)) return wrong("--seed: expected 0 to 1e9");
@@ -76,6 +99,8 @@ int main(int argc, char** argv) {
     return wrong("--scatter: expected 0 to 1");
   if (options["--start"] != "known" && options["--start"] != "unknown")
     return wrong("--start: expected known or unknown");
+  if (!parse(options["--effect-size"], -100.0, 100.0, &effects.size))
+    return wrong("--effect-size: expected -100 to 100");
   if (options["--output"].empty()) return wrong("no --output given");
 
   const std::string rig = argv[1];
@@ -85,24 +110,36 @@ int main(int argc, char** argv) {
   try {
     MeasurementSet set;
     if (rig == "random") {
-      set = randomSet(number, snr);
+      set = randomSet(number, snr, effects);
     } else if (rig == "ringdowns") {
       RingdownPlan ringdowns;
       ringdowns.unknown_start = options["--start"] == "unknown";
-      set = ringdownSet(number, snr, ringdowns);
+      set = ringdownSet(number, snr, ringdowns, effects);
     } else if (rig == "wire") {
-      set = wireSet(number, snr);
+      set = wireSet(number, snr, effects);
     } else if (rig == "torsion-series") {
-      set = torsionSeries(number, snr, plan);
+      set = torsionSeries(number, snr, plan, effects);
     } else if (rig == "torsion-single") {
       plan.lengths = 1;
-      set = torsionSeries(number, snr, plan);
+      set = torsionSeries(number, snr, plan, effects);
     } else if (rig == "six") {
-      set = sixRecords(number, snr);
+      set = sixRecords(number, snr, effects);
+    } else if (rig == "effects") {
+      const EffectSets sets = effectSets(number, snr, effects);
+      writeSet(sets.unseen, options["--output"] + "/unseen");
+      set = sets.seen;
+    } else if (rig == "drive") {
+      set = driveSet(number, snr, effects);
+    } else if (rig == "arch") {
+      set = archSet(number, snr, effects);
+    } else if (rig == "bend") {
+      set = bendSet(number, snr, effects);
     } else {
       return wrong("unknown rig " + rig);
     }
     writeSet(set, options["--output"]);
+  } catch (const std::invalid_argument& error) {
+    return wrong(error.what());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "rig_generator: %s\n", error.what());
     return 3;

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "effects/kinds.h"
+
 namespace cosserat_cable::generator {
 namespace {
 
@@ -65,8 +67,15 @@ std::string experimentYaml(const MeasuredExperiment& measured, double set_length
   if (e.cable.length != set_length) {
     out << "    specimen: {length: " << number(e.cable.length) << "}\n";
   }
-  out << "    gravity: " << list(e.gravity) << "\n    a: {pose: " << pose(e.a) << "}\n";
-  if (e.disc) {
+  out << "    gravity: " << list(e.gravity) << "\n    a: ";
+  if (e.drive) {
+    out << "{motion: clamp_a_" << e.name << ".csv}\n";
+  } else {
+    out << "{pose: " << pose(e.a) << "}\n";
+  }
+  if (e.b) {
+    out << "    b: {pose: " << pose(*e.b) << "}\n";
+  } else if (e.disc) {
     out << "    b: {disc: {inertia: " << number(e.disc->inertia)
         << ", mass: " << number(e.disc->mass) << (e.guided ? ", guided: true" : "") << "}}\n";
   } else {
@@ -77,9 +86,12 @@ std::string experimentYaml(const MeasuredExperiment& measured, double set_length
   } else if (e.held) {
     out << "    start: {held: {s: " << number(e.cable.length) << ", position: " << list(*e.held)
         << "}}\n";
-  } else {
+  } else if (e.disc) {
     out << "    start: {twisted: " << number(e.twisted) << "}\n";
+  } else {
+    out << "    start: {rest: true}\n";
   }
+  if (!e.tip_forces.empty()) out << "    load: load_" << e.name << ".csv\n";
   out << "    record: " << e.name << ".csv\n    channels:\n";
   for (size_t c = 0; c < e.channels.size(); ++c) {
     const Channel& channel = e.channels[c];
@@ -116,14 +128,28 @@ std::string setYaml(const MeasurementSet& set) {
   return out.str();
 }
 
+/// The effects' names, every number of theirs by its path, and the same as a file nests them.
+std::string effectsJson(const MeasurementSet& set) {
+  std::string names, paths;
+  for (const EffectChoice& choice : set.effects) {
+    names += std::string(names.empty() ? "" : ", ") + "\"" + choice.kind->name + "\"";
+    for (const auto& [path, value] : choice.values) {
+      paths += std::string(paths.empty() ? "" : ",") + "\n    \"" + effectPath(*choice.kind, path) +
+               "\": " + number(value);
+    }
+  }
+  return "  \"effects\": [" + names + "],\n  \"effect_parameters\": {" + paths +
+         (paths.empty() ? "" : "\n  ") + "},\n";
+}
+
 std::string truthJson(const MeasurementSet& set) {
   std::ostringstream out;
   out << "{\n  \"format\": 1,\n  \"rig\": \"" << set.rig << "\",\n  \"seed\": " << set.seed
       << ",\n  \"snr_db\": " << number(set.snr)
       << ",\n  \"parameters\": {\"EI\": " << number(set.truth.EI)
       << ", \"eta_EI\": " << number(set.truth.eta_EI) << ", \"GJ\": " << number(set.truth.GJ)
-      << ", \"eta_GJ\": " << number(set.truth.eta_GJ) << ", \"D_E\": " << number(set.D_E)
-      << "},\n  \"sigma\": {";
+      << ", \"eta_GJ\": " << number(set.truth.eta_GJ) << ", \"D_E\": " << number(set.D_E) << "},\n"
+      << effectsJson(set) << "  \"sigma\": {";
   for (size_t i = 0; i < set.experiments.size(); ++i) {
     const MeasuredExperiment& e = set.experiments[i];
     out << (i > 0 ? "," : "") << "\n    \"" << e.experiment.name << "\": {";
@@ -137,8 +163,36 @@ std::string truthJson(const MeasurementSet& set) {
   return out.str();
 }
 
+/// The motion of clamp a that the set states, and a little longer than the record.
+std::string motionCsv(const Experiment& e) {
+  constexpr double kRate = 1000.0, kLonger = 0.05;  // [Hz], [s]
+  const FrameCurve curve = excite(*e.drive);
+  const int last = static_cast<int>(kRate * (e.times[e.times.size() - 1] + kLonger)) + 1;
+  std::string text = "t,x,y,z,qx,qy,qz,qw\n";
+  for (int i = 0; i <= last; ++i) {
+    const FrameMotion m = curve(i / kRate);
+    Eigen::Quaterniond q(m.R);
+    if (q.w() < 0.0) q.coeffs() *= -1.0;
+    text += number(i / kRate);
+    for (double x : {m.p.x(), m.p.y(), m.p.z(), q.x(), q.y(), q.z(), q.w()})
+      text += "," + number(x);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string loadCsv(const Experiment& e) {
+  std::string text = "step,s,fx,fy,fz\n";
+  for (size_t i = 0; i < e.tip_forces.size(); ++i) {
+    text += std::to_string(i) + "," + number(e.cable.length);
+    for (int d = 0; d < 3; ++d) text += "," + number(e.tip_forces[i][d]);
+    text += "\n";
+  }
+  return text;
+}
+
 std::string recordCsv(const MeasuredExperiment& measured) {
-  std::string text = "t";
+  std::string text = measured.experiment.tip_forces.empty() ? "t" : "step";
   for (const Channel& channel : measured.experiment.channels) text += "," + channel.column;
   text += "\n";
   for (int i = 0; i < measured.values.rows(); ++i) {
@@ -215,7 +269,14 @@ void writeSet(const MeasurementSet& set, const std::string& folder) {
   writeFile(path / "measurement.yaml", setYaml(set));
   writeFile(path / "truth.json", truthJson(set));
   for (const MeasuredExperiment& e : set.experiments) {
-    writeFile(path / (e.experiment.name + ".csv"), recordCsv(e));
+    const Experiment& experiment = e.experiment;
+    writeFile(path / (experiment.name + ".csv"), recordCsv(e));
+    if (experiment.drive) {
+      writeFile(path / ("clamp_a_" + experiment.name + ".csv"), motionCsv(experiment));
+    }
+    if (!experiment.tip_forces.empty()) {
+      writeFile(path / ("load_" + experiment.name + ".csv"), loadCsv(experiment));
+    }
   }
 }
 

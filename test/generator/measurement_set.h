@@ -27,6 +27,7 @@ struct MeasurementSet {
   double D_E = 0.0;  ///< [N m s]
   double EI_guess = 0.0, GJ_guess = 0.0;
   std::vector<std::string> uncertain;
+  std::vector<EffectChoice> effects;  ///< as simulated; nothing but truth.json tells of them
   std::vector<MeasuredExperiment> experiments;
 };
 
@@ -39,7 +40,8 @@ std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experimen
 /// knows of the start.
 void forgetStart(double time, MeasuredExperiment* measured);
 
-/// Writes measurement.yaml, a CSV file per experiment and truth.json into a folder, which is made.
+/// Writes measurement.yaml, a CSV file per experiment (and per motion of a clamp, clamp_a_NAME.csv,
+/// and per slow load, load_NAME.csv) and truth.json into a folder, which is made.
 /// Throws std::runtime_error naming the file that could not be written.
 void writeSet(const MeasurementSet& set, const std::string& folder);
 

@@ -19,6 +19,8 @@ constexpr int kMaxIterations = 10;
 constexpr double kNewtonTolerance = 1e-2;  // of the error tolerance, so that it adds nothing to it
 constexpr double kStaleRate = 0.05;        // contraction beyond which factors are renewed
 constexpr int kPatience = 15;              // steps without growth after Newton's method failed
+constexpr double kAbruptRate = 0.3;  // contraction beyond which a kink is taken for the reason
+constexpr int kRenewals = 3;
 constexpr double kSafety = 0.9;
 constexpr double kLeastFactor = 0.2;
 constexpr double kMostFactor = 6.0;
@@ -159,6 +161,7 @@ RadauCounts integrateRadau(
     if (h < 1e-15 * std::max(1.0, std::abs(t1)))
       throw std::runtime_error("the step size of the integrator vanished");
     if (stale) {
+      system.expectStep(h);
       factors.linearise(system, now);
       stale = false;
       factorised_h = 0.0;
@@ -172,7 +175,7 @@ RadauCounts integrateRadau(
     MatrixXd a = predictStages(tableau, stages, h / last_h);
     bool converged = false;
     double previous = 0.0, rate = 0.0;
-    int iteration = 0;
+    int iteration = 0, renewed = 0;
     while (iteration < kMaxIterations) {
       velocities = (h * a * tableau.A.transpose()).colwise() + now.v;
       positions = h * h * a * tableau.A2.transpose();
@@ -194,6 +197,19 @@ RadauCounts integrateRadau(
       if (left < kNewtonTolerance * options.tolerance) {
         converged = true;
         break;
+      }
+      if (system.abrupt() && renewed < kRenewals && iteration > 1 && rate > kAbruptRate) {
+        // A kink: the matrices of where the step ends, and the same iterate.
+        velocities = (h * a * tableau.A.transpose()).colwise() + now.v;
+        positions = h * h * a * tableau.A2.transpose();
+        factors.linearise(
+            system, {now.t + h, now.q + h * now.v + positions.col(2), velocities.col(2), a.col(2)});
+        factors.factorise(tableau, h);
+        stale = true;
+        ++renewed;
+        iteration = 0;
+        rate = 0.0;
+        continue;
       }
       if (iteration > 1 && rate >= 1.0) break;
     }

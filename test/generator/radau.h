@@ -17,6 +17,10 @@ class SecondOrderSystem {
   virtual void linearise(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                          const Eigen::VectorXd& a, Eigen::MatrixXd* M, Eigen::MatrixXd* D,
                          Eigen::MatrixXd* K) = 0;
+  /// Whether the residual has kinks, so that Newton's matrices are worth renewing within a step.
+  virtual bool abrupt() const { return false; }
+  /// Told before linearise(): the step that will be tried, for laws that depend on it.
+  virtual void expectStep(double /*h*/) {}
   /// What one unit of each coordinate counts in error norms.
   virtual Eigen::VectorXd scale() const = 0;
 };

@@ -1,8 +1,11 @@
 #include "rigs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
+#include "effects/kinds.h"
 #include "statics.h"
 
 namespace cosserat_cable::generator {
@@ -57,55 +60,137 @@ double hermite(const Vector3d& left, const Vector3d& right, double h, double t, 
   return (2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))) / (h * h);
 }
 
-/// Fills a record from the integrator's steps.
+/// Fills a record from the integrator's steps. Times up to 0 show the start.
 class Recorder {
  public:
-  Recorder(const RodDynamics& rod, const Experiment& experiment, Record* record)
-      : rod_(rod), experiment_(experiment), record_(record) {
-    for (const Channel& channel : experiment.channels) {
+  Recorder(const RodDynamics& rod, std::vector<Channel> channels, VectorXd times,
+           Eigen::MatrixXd* values)
+      : rod_(rod), channels_(std::move(channels)), times_(std::move(times)), values_(values) {
+    for (const Channel& channel : channels_) {
       stations_.push_back(rod.shape().integralTo(channel.s));
     }
-    record->values.resize(experiment.times.size(), experiment.channels.size());
+    values->resize(times_.size(), channels_.size());
   }
 
   void start(const MotionState& state) {
     for (size_t c = 0; c < stations_.size(); ++c) {
-      const Channel& channel = experiment_.channels[c];
-      right_.push_back(motionOf(rod_, channel, stations_[c], state));
-      record_->values(0, c) = right_[c][derivativeOf(channel.quantity)];
+      right_.push_back(motionOf(rod_, channels_[c], stations_[c], state));
     }
-    next_ = 1;
+    for (; next_ < times_.size() && times_[next_] <= 0.0; ++next_) {
+      for (size_t c = 0; c < stations_.size(); ++c) {
+        (*values_)(next_, c) = right_[c][derivativeOf(channels_[c].quantity)];
+      }
+    }
   }
 
   void step(const MotionState& begin, const MotionState& end) {
     const std::vector<Vector3d> left = right_;
     for (size_t c = 0; c < stations_.size(); ++c) {
-      right_[c] = motionOf(rod_, experiment_.channels[c], stations_[c], end);
+      right_[c] = motionOf(rod_, channels_[c], stations_[c], end);
     }
-    for (; next_ < experiment_.times.size() && experiment_.times[next_] <= end.t; ++next_) {
-      const double t = experiment_.times[next_] - begin.t;
+    for (; next_ < times_.size() && times_[next_] <= end.t; ++next_) {
+      const double t = times_[next_] - begin.t;
       for (size_t c = 0; c < stations_.size(); ++c) {
-        record_->values(next_, c) = hermite(left[c], right_[c], end.t - begin.t, t,
-                                            derivativeOf(experiment_.channels[c].quantity));
+        (*values_)(next_, c) =
+            hermite(left[c], right_[c], end.t - begin.t, t, derivativeOf(channels_[c].quantity));
       }
     }
   }
 
  private:
   const RodDynamics& rod_;
-  const Experiment& experiment_;
-  Record* record_;
+  std::vector<Channel> channels_;
+  VectorXd times_;
+  Eigen::MatrixXd* values_;
   std::vector<Eigen::RowVectorXd> stations_;
   std::vector<Vector3d> right_;
   Eigen::Index next_ = 0;
 };
 
-}  // namespace
+/// What the channels show at rest.
+Eigen::RowVectorXd shownAt(const RodDynamics& rod, const std::vector<Channel>& channels,
+                           const VectorXd& q, double t = 0.0) {
+  Eigen::RowVectorXd values(channels.size());
+  MotionState state = atRest(q);
+  state.t = t;
+  for (size_t c = 0; c < channels.size(); ++c) {
+    values[c] = motionOf(rod, channels[c], rod.shape().integralTo(channels[c].s),
+                         state)[derivativeOf(channels[c].quantity)];
+  }
+  return values;
+}
 
-RodDynamics makeRig(const Experiment& experiment, const Resolution& resolution) {
-  RodDynamics rod(makeRod(experiment.cable), resolution);
-  const FrameMotion a = experiment.a;
-  rod.clamp = [a](double) { return a; };
+/// What a sensor makes of its channels: needs all axes of a vector and dense samples.
+class SensorStage {
+ public:
+  SensorStage(std::vector<std::shared_ptr<Effect>> effects, const std::vector<Channel>& channels)
+      : effects_(std::move(effects)), channels_(channels) {
+    for (const Channel& channel : channels) {
+      const bool scalar = channel.quantity >= Channel::Quantity::kAngle;
+      for (int axis = 0; axis < (scalar ? 1 : 3); ++axis) {
+        true_.push_back(channel);
+        if (!scalar) true_.back().axis = axis;
+      }
+    }
+  }
+  const std::vector<Channel>& trueChannels() const { return true_; }
+
+  Eigen::MatrixXd sense(double dt, Eigen::MatrixXd dense) const {
+    Eigen::MatrixXd result(dense.rows(), channels_.size());
+    int column = 0;
+    for (size_t c = 0; c < channels_.size(); ++c) {
+      const bool scalar = channels_[c].quantity >= Channel::Quantity::kAngle;
+      const int count = scalar ? 1 : 3;
+      for (const auto& effect : effects_) effect->sense(dt, dense.middleCols(column, count));
+      result.col(c) = dense.col(column + (scalar ? 0 : channels_[c].axis));
+      column += count;
+    }
+    return result;
+  }
+
+ private:
+  std::vector<std::shared_ptr<Effect>> effects_;
+  std::vector<Channel> channels_, true_;
+};
+
+/// Effects, clamps and times of an experiment as they really are.
+struct TrueRig {
+  std::vector<std::shared_ptr<Effect>> effects;
+  FrameCurve a, b;
+
+  explicit TrueRig(const Experiment& e) {
+    EffectSite site;
+    site.cable = e.cable;
+    site.duration = e.times.size() > 0 ? e.times[e.times.size() - 1] : 1.0;
+    site.disc = e.disc.has_value();
+    effects = makeEffects(e.effects, site);
+    const FrameMotion start = e.a;
+    a = [start](double) { return start; };
+    if (e.drive) a = excite(*e.drive);
+    if (e.b) {
+      const FrameMotion end = *e.b;
+      b = [end](double) { return end; };
+    }
+    for (const auto& effect : effects) {
+      a = effect->clampMotion(0, a, site.duration, e.drive.has_value());
+      if (b) b = effect->clampMotion(1, b, site.duration, false);
+    }
+  }
+  double motionTime(double t) const {
+    for (const auto& effect : effects) t = effect->motionTime(t);
+    return t;
+  }
+  bool senses() const {
+    return std::any_of(effects.begin(), effects.end(), [](const auto& e) { return e->senses(); });
+  }
+};
+
+RodDynamics assembled(const Experiment& experiment, const TrueRig& rig,
+                      const Resolution& resolution) {
+  CableData cable = experiment.cable;
+  for (const auto& effect : rig.effects) effect->equip(&cable);
+  RodDynamics rod(makeRod(cable), resolution);
+  rod.clamp = rig.a;
   rod.gravity = experiment.gravity;
   if (experiment.disc) rod.disc = *experiment.disc;
   if (experiment.guided) {
@@ -114,37 +199,169 @@ RodDynamics makeRig(const Experiment& experiment, const Resolution& resolution) 
     guide.position[2] = guide.rotation[2] = false;
     rod.holds.push_back(guide);
   }
+  if (rig.b) {
+    EndHold hold;
+    hold.pose = rig.b;
+    rod.holds.push_back(hold);
+  }
+  for (const auto& effect : rig.effects) rod.addEffect(effect);
   return rod;
 }
 
+/// From straight to where clamp b holds the end, along arcs of growing curvature.
+VectorXd archRest(RodDynamics* rod) {
+  constexpr int kArcs = 24;
+  const FrameMotion a = rod->clamp(0.0);
+  const FrameCurve held = rod->holds.front().pose;
+  const FrameMotion b = held(0.0);
+  const Eigen::Matrix3d R = a.R.transpose() * b.R;
+  const Vector3d place = a.R.transpose() * (b.p - a.p);
+  Eigen::AngleAxisd turn(R);
+  if (turn.axis().cross(Vector3d::UnitZ()).dot(place) < 0.0) {
+    // Half a turn has two axes; the arc has to lead to where the end is.
+    turn = Eigen::AngleAxisd(2.0 * std::acos(-1.0) - turn.angle(), -turn.axis());
+  }
+  const double L = rod->rod().length;
+  const auto arc = [&](double part) -> Vector3d {  // its end in clamp a's frame
+    const double angle = part * turn.angle();
+    if (angle == 0.0) return L * Vector3d::UnitZ();
+    const Vector3d side = turn.axis().cross(Vector3d::UnitZ());
+    return L / angle * (std::sin(angle) * Vector3d::UnitZ() + (1.0 - std::cos(angle)) * side);
+  };
+  const Vector3d beside = place - arc(1.0);
+  VectorXd q = VectorXd::Zero(rod->size()), before = q;
+  for (int stage = 0; stage <= kArcs; ++stage) {
+    const double part = static_cast<double>(stage) / kArcs;
+    FrameMotion pose = b;
+    pose.p = a.p + a.R * (arc(part) + part * beside);
+    pose.R = a.R * Eigen::AngleAxisd(part * turn.angle(), turn.axis()).toRotationMatrix();
+    rod->holds.front().pose = [pose](double) { return pose; };
+    // Stiff holds leave Newton's method no way but near the answer: the next arc, then the trend.
+    VectorXd guess = q;
+    if (stage == 1) {
+      const Vector3d K = turn.angle() / L / kArcs * turn.axis();
+      for (int c = 0; c < 3; ++c) guess[rod->shape().offset(c)] += K[c];
+    } else if (stage > 1) {
+      guess += q - before;
+    }
+    before = q;
+    q = equilibrium(*rod, guess);
+    remember(*rod, q);
+  }
+  rod->holds.front().pose = held;
+  return equilibrium(*rod, q);
+}
+
+/// A record of equilibria under forces at the tip, each reached in some smaller steps.
+Record bend(const Experiment& experiment, RodDynamics* rod) {
+  constexpr int kBetween = 4;
+  const VectorXd rest = loadedEquilibrium(*rod);
+  const double L = experiment.cable.length;
+  VectorXd q = rest;
+  Vector3d force = Vector3d::Zero();
+  Record record;
+  record.values.resize(experiment.tip_forces.size(), experiment.channels.size());
+  for (size_t i = 0; i < experiment.tip_forces.size(); ++i) {
+    for (int k = 1; k <= kBetween; ++k) {
+      const Vector3d next =
+          force + static_cast<double>(k) / kBetween * (experiment.tip_forces[i] - force);
+      rod->forces = {{L, next}};
+      q = equilibrium(*rod, q);
+      remember(*rod, q);
+    }
+    force = experiment.tip_forces[i];
+    record.values.row(i) = shownAt(*rod, experiment.channels, q);
+  }
+  record.rest = shownAt(*rod, experiment.channels, rest).transpose();
+  return record;
+}
+
+}  // namespace
+
+RodDynamics makeRig(const Experiment& experiment, const Resolution& resolution) {
+  return assembled(experiment, TrueRig(experiment), resolution);
+}
+
+VectorXd restOf(const Experiment& experiment, RodDynamics* rod) {
+  return experiment.b ? archRest(rod) : loadedEquilibrium(*rod);
+}
+
 Record simulate(const Experiment& experiment, const Accuracy& accuracy) {
-  RodDynamics rod = makeRig(experiment, accuracy.resolution);
-  const VectorXd rest = loadedEquilibrium(rod);
+  // Kinks cost many steps, and the noise hides what coarser ones cost; tested.
+  constexpr double kAbruptTolerance = 30.0;
+  constexpr double kSamplesPerStep = 4.0;  // of a sensor's dense samples
+  constexpr double kDrivenScale = 0.5;     // strains over displacement, in lengths
+  const TrueRig rig(experiment);
+  RodDynamics rod = assembled(experiment, rig, accuracy.resolution);
+  if (!experiment.tip_forces.empty()) {
+    Record record = bend(experiment, &rod);
+    if (rig.senses()) {
+      // Slow: no low pass shows.
+      const SensorStage sensor(rig.effects, experiment.channels);
+      Experiment whole = experiment;
+      whole.channels = sensor.trueChannels();
+      RodDynamics again = assembled(whole, TrueRig(whole), accuracy.resolution);
+      const Record all = bend(whole, &again);
+      record.values = sensor.sense(1e9, all.values);
+      record.rest = sensor.sense(1.0, all.rest.transpose()).transpose();
+    }
+    return record;
+  }
+
+  const VectorXd rest = restOf(experiment, &rod);
   VectorXd released = rest;
+  double size = 0.0;
   if (experiment.held) {
     released = heldEquilibrium(rod, rest, experiment.cable.length, *experiment.held);
     rod.forces.clear();
-  } else {
+  } else if (experiment.disc) {
     released = twistedEquilibrium(rod, rest, experiment.twisted);
     rod.end_torque = 0.0;
   }
+  size = (released - rest).cwiseProduct(rod.scale()).norm() /
+         std::sqrt(static_cast<double>(rod.size()));
+  if (experiment.drive) {
+    size = std::max(
+        size, kDrivenScale * largestDisplacement(*experiment.drive) / experiment.cable.length);
+  }
+
+  // Times of the motion; dense ones where a sensor looks between the samples.
+  const SensorStage sensor(rig.effects, experiment.channels);
+  const Eigen::Index count = experiment.times.size();
+  VectorXd moments = experiment.times;
+  std::vector<Channel> channels = experiment.channels;
+  double dt = 0.0;
+  if (rig.senses()) {
+    const double end = experiment.times[count - 1];
+    const int dense = static_cast<int>(kSamplesPerStep * std::max<double>(count, 2000.0 * end));
+    dt = end / dense;
+    moments = VectorXd::LinSpaced(dense + 1, 0.0, end);
+    channels = sensor.trueChannels();
+  }
+  for (double& t : moments) t = rig.motionTime(t);
 
   Record record;
-  Recorder recorder(rod, experiment, &record);
+  Recorder recorder(rod, channels, moments, &record.values);
   const VectorXd still = VectorXd::Zero(rod.size());
   recorder.start({0.0, released, still, accelerations(rod, 0.0, released, still)});
   RadauOptions options;
-  options.tolerance = accuracy.tolerance * (released - rest).cwiseProduct(rod.scale()).norm() /
-                      std::sqrt(static_cast<double>(rod.size()));
-  record.counts = integrateRadau(
-      rod, released, still, 0.0, experiment.times[experiment.times.size() - 1], options,
-      [&](const MotionState& begin, const MotionState& end) { recorder.step(begin, end); });
+  options.tolerance = accuracy.tolerance * size * (rod.abrupt() ? kAbruptTolerance : 1.0);
+  record.counts = integrateRadau(rod, released, still, 0.0, moments[moments.size() - 1], options,
+                                 [&](const MotionState& begin, const MotionState& end) {
+                                   if (rod.hasEffects()) rod.commit(end);
+                                   recorder.step(begin, end);
+                                 });
 
-  record.rest.resize(experiment.channels.size());
-  for (size_t c = 0; c < experiment.channels.size(); ++c) {
-    const Channel& channel = experiment.channels[c];
-    record.rest[c] = motionOf(rod, channel, rod.shape().integralTo(channel.s),
-                              atRest(rest))[derivativeOf(channel.quantity)];
+  record.rest = shownAt(rod, channels, rest).transpose();
+  if (rig.senses()) {
+    record.rest = sensor.sense(1.0, record.rest.transpose()).transpose();
+    const Eigen::MatrixXd dense = sensor.sense(dt, record.values);
+    record.values.resize(count, dense.cols());
+    for (Eigen::Index i = 0; i < count; ++i) {
+      const double x = experiment.times[i] / dt;
+      const Eigen::Index k = std::min<Eigen::Index>(static_cast<Eigen::Index>(x), dense.rows() - 2);
+      record.values.row(i) = dense.row(k) + (x - k) * (dense.row(k + 1) - dense.row(k));
+    }
   }
   return record;
 }

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "effects/effect.h"
+#include "excitation.h"
 #include "rod_dynamics.h"
 
 namespace cosserat_cable::generator {
@@ -18,8 +20,9 @@ struct Channel {
   int axis = 0;  ///< of the world frame; means nothing for angle and rate
 };
 
-/// One experiment on one specimen, clamp a fixed: a ring-down where `disc` is empty and `held` is
-/// given, a torsional pendulum where `disc` and `twisted` are.
+/// One experiment on one specimen. Clamp a is fixed for a ring-down (`disc` is empty and `held` is
+/// given), a torsional pendulum (`disc` and `twisted`) and slow bending (`tip_forces`: one
+/// equilibrium each); it moves from rest where `drive` is given, with the end free or held at `b`.
 struct Experiment {
   std::string name;
   std::string kind;
@@ -29,9 +32,16 @@ struct Experiment {
   std::optional<Disc> disc;
   bool guided = false;  ///< the disc turns about and slides along clamp a's axis only
   std::optional<Eigen::Vector3d> held;  ///< where the end is held before it is let go [m]
-  double twisted = 0.0;                 ///< angle at which the disc is held [rad]
+  /// How far from rest and in which direction it was pulled to get there [m]; where a set has
+  /// effects, `held` is where it gets with them. 0: `held` says all.
+  Eigen::Vector3d pull = Eigen::Vector3d::Zero();
+  double twisted = 0.0;                     ///< angle at which the disc is held [rad]
+  std::optional<Excitation> drive;          ///< starts at `a`
+  std::optional<FrameMotion> b;             ///< fixed
+  std::vector<Eigen::Vector3d> tip_forces;  ///< world [N]
+  std::vector<EffectChoice> effects;
   std::vector<Channel> channels;
-  Eigen::VectorXd times;  ///< [s], the first is the release
+  Eigen::VectorXd times;  ///< [s], the first is the release; of tip_forces the steps' numbers
 };
 
 /// Defaults chosen by the convergence tests.
@@ -47,8 +57,12 @@ struct Record {
   RadauCounts counts;
 };
 
-/// The rod of an experiment in its surroundings, before anything pulls or twists it.
+/// The rod of an experiment in its surroundings and with its effects, before anything pulls or
+/// twists it.
 RodDynamics makeRig(const Experiment& experiment, const Resolution& resolution);
+
+/// The rest shape before the experiment starts, reached from the straight rod.
+Eigen::VectorXd restOf(const Experiment& experiment, RodDynamics* rod);
 
 Record simulate(const Experiment& experiment, const Accuracy& accuracy = {});
 

@@ -1,6 +1,9 @@
 #include "rod_dynamics.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "rotation_vector.h"
 
 namespace cosserat_cable::generator {
 namespace {
@@ -52,6 +55,12 @@ VectorXd RodDynamics::scale() const {
   return scale;
 }
 
+Vector3d RodDynamics::hingePart(const VectorXd& x) const {
+  Vector3d part = Vector3d::Zero();
+  for (int j = 0; j < hinge_; ++j) part[hingeAxis(j)] = x[x.size() - hinge_ + j];
+  return part;
+}
+
 double RodDynamics::holdForceStiffness() const {
   return kHoldStiffness * rod_.C_M[0] / std::pow(rod_.length, 3);
 }
@@ -68,10 +77,26 @@ RodDynamics::Kinematics RodDynamics::kinematics(double t, const VectorXd& q, con
                                                 const VectorXd& a) const {
   const int N = shape_.nodes();
   const MatrixXd& S = shape_.integral();
-  const FrameMotion base = clamp(t);
   Kinematics k;
+  FrameMotion& base = k.base;
+  base = clamp(t);
+  if (settled) base.v = base.w = base.a = base.alpha = Vector3d::Zero();
+  const Matrix3d R_clamp = base.R;
+  Matrix3d R_start = base.R;
+  Vector3d w_start = base.w, alpha_start = base.alpha;
+  k.swivel = R_clamp;
+  if (hinge_ > 0) {
+    k.turn.angle = hingePart(q);
+    k.turn.rate = hingePart(v);
+    const RotationVector turn(k.turn.angle);
+    const Vector3d spin = R_clamp * turn.velocity(k.turn.rate);
+    R_start = R_clamp * turn.R;
+    k.swivel = R_clamp * turn.J;
+    w_start += spin;
+    alpha_start += base.w.cross(spin) + R_clamp * turn.acceleration(k.turn.rate, hingePart(a));
+  }
   shape_.rotations(q, &k.frames);
-  k.frames = (base.R * k.frames).eval();
+  k.frames = (R_start * k.frames).eval();
   k.K = shape_.atNodes(q, 0);
   k.Kd = shape_.atNodes(v, 0);
   k.G = shape_.atNodes(q, 3);
@@ -82,11 +107,11 @@ RodDynamics::Kinematics RodDynamics::kinematics(double t, const VectorXd& q, con
   // All in world axes, where velocities and accelerations are plain integrals along s.
   const Points Kd_world = turned(k.frames, k.Kd);
   k.w.noalias() = Kd_world * S.transpose();
-  k.w.colwise() += base.w;
+  k.w.colwise() += w_start;
   Points integrand = turned(k.frames, shape_.atNodes(a, 0));
   for (int i = 0; i < N; ++i) integrand.col(i) += cross(k.w, i, Kd_world.col(i));
   k.alpha.noalias() = integrand * S.transpose();
-  k.alpha.colwise() += base.alpha;
+  k.alpha.colwise() += alpha_start;
 
   const Points Gd_world = turned(k.frames, k.Gd);
   const Points Gdd_world = turned(k.frames, shape_.atNodes(a, 3));
@@ -105,12 +130,12 @@ RodDynamics::Kinematics RodDynamics::kinematics(double t, const VectorXd& q, con
 
 void RodDynamics::holdLoad(double t, const Kinematics& k, const EndHold& hold, Vector3d* force,
                            Vector3d* moment) const {
-  const FrameMotion b = hold.pose(t);
-  const FrameMotion base = clamp(t);
+  FrameMotion b = hold.pose(t);
+  if (settled) b.v = b.w = Vector3d::Zero();
   const int end = shape_.points() - 1;
   const Eigen::RowVectorXd row = shape_.integral().row(end);
-  const Vector3d position = base.p + k.rp * row.transpose();
-  const Vector3d velocity = base.v + k.v_s * row.transpose();
+  const Vector3d position = k.base.p + k.rp * row.transpose();
+  const Vector3d velocity = k.base.v + k.v_s * row.transpose();
   const Matrix3d relative = b.R.transpose() * k.frames.middleCols<3>(3 * end);
   const Vector3d gap = b.R.transpose() * (position - b.p);
   const Vector3d gap_rate = b.R.transpose() * (velocity - b.v - b.w.cross(position - b.p));
@@ -118,6 +143,12 @@ void RodDynamics::holdLoad(double t, const Kinematics& k, const EndHold& hold, V
   const Vector3d turn_rate = b.R.transpose() * (k.w.col(end) - b.w);
   Vector3d f = -holdForceStiffness() * (gap + holdTime() * gap_rate);
   Vector3d m = -holdMomentStiffness() * (turn + holdTime() * turn_rate);
+  if (!effects_.empty()) {
+    const Vector3d given = clampMoment(1, holdTurn(t, k));
+    for (int c = 0; c < 3; ++c) {
+      if (holdGives(c)) m[c] = -given[c];
+    }
+  }
   for (int c = 0; c < 3; ++c) {
     if (!hold.position[c]) f[c] = 0.0;
     if (!hold.rotation[c]) m[c] = 0.0;
@@ -157,13 +188,19 @@ RodDynamics::Internal RodDynamics::internal(double t, const Kinematics& k) const
   // What lies beyond s acts at s: the transpose of the integral from 0, exact for Gauss nodes.
   Internal result;
   result.n = load * S;
+  result.force = load.rowwise().sum();
+  if (station_s_.size() > 0) {
+    const Points force = stationForces(t, k, stationPositions(k), stationVelocities(k)) *
+                         station_weights_.asDiagonal();
+    result.n += force * station_integral_;
+    result.force += force.rowwise().sum();
+  }
   for (int i = 0; i < N; ++i) {
     result.n.col(i) /= weights[i];
     moment.col(i) = weights[i] * (cross(k.rp, i, result.n.col(i)) - rate_of_spin(i, rod_.rhoJ));
   }
   result.m = moment * S;
   for (int i = 0; i < N; ++i) result.m.col(i) /= weights[i];
-  result.force = load.rowwise().sum();
   result.moment = moment.rowwise().sum();
   return result;
 }
@@ -174,6 +211,7 @@ VectorXd RodDynamics::residual(double t, const VectorXd& q, const VectorXd& v, c
   const int N = shape_.nodes();
   Points M = rod_.C_M.asDiagonal() * k.K + rod_.V_M.asDiagonal() * k.Kd;
   Points F = rod_.V_F.asDiagonal() * k.Gd;
+  for (const auto& effect : effects_) effect->addMoments({t, settled, k.K, k.Kd}, &M);
   for (int i = 0; i < N; ++i) {
     const auto R = k.frames.middleCols<3>(3 * i);
     F.col(i) += rod_.C_F.cwiseProduct(k.G.col(i) - Vector3d::UnitZ());
@@ -185,6 +223,10 @@ VectorXd RodDynamics::residual(double t, const VectorXd& q, const VectorXd& v, c
     const Points& field = c < 3 ? M : F;
     result.segment(shape_.offset(c), shape_.count(c)).noalias() =
         shape_.basis(c).transpose() * field.row(c % 3).transpose();
+  }
+  if (hinge_ > 0) {
+    const Vector3d rows = clampMoment(0, k.turn) - k.swivel.transpose() * load.moment;
+    for (int j = 0; j < hinge_; ++j) result[size() - hinge_ + j] = rows[hingeAxis(j)];
   }
   return result;
 }
@@ -202,7 +244,7 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
     return values;
   };
 
-  // Rotations (by curvature coordinates only) and displacements of all points, world axes.
+  // Rotations and displacements of all points, world axes.
   MatrixXd turn[3], slope[3], shift[3];
   for (int d = 0; d < 3; ++d) {
     MatrixXd integrand(N, nk);
@@ -210,13 +252,15 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
       integrand.middleCols(shape_.offset(c), shape_.count(c)) =
           component(N, d, c).asDiagonal() * shape_.basis(c);
     }
-    turn[d].noalias() = S * integrand;
+    turn[d].setZero(P, n);
+    turn[d].leftCols(nk).noalias() = S * integrand;
+    for (int j = 0; j < hinge_; ++j)
+      turn[d].col(n - hinge_ + j).setConstant(k.swivel(d, hingeAxis(j)));
   }
   for (int d = 0; d < 3; ++d) {
     const int e = (d + 1) % 3, f = (d + 2) % 3;
-    slope[d].resize(N, n);
-    slope[d].leftCols(nk) = VectorXd(k.rp.row(f).transpose()).asDiagonal() * turn[e].topRows(N) -
-                            VectorXd(k.rp.row(e).transpose()).asDiagonal() * turn[f].topRows(N);
+    slope[d] = VectorXd(k.rp.row(f).transpose()).asDiagonal() * turn[e].topRows(N) -
+               VectorXd(k.rp.row(e).transpose()).asDiagonal() * turn[f].topRows(N);
     for (int c = 3; c < 6; ++c) {
       slope[d].middleCols(shape_.offset(c), shape_.count(c)) =
           component(N, d, c - 3).asDiagonal() * shape_.basis(c);
@@ -230,14 +274,14 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
   mass[P - 1] += disc.mass;
   M->setZero(n, n);
   for (int d = 0; d < 3; ++d) M->noalias() += shift[d].transpose() * mass.asDiagonal() * shift[d];
-  MatrixXd end_turn(3, nk);  // section axes
+  MatrixXd end_turn(3, n);  // section axes
   for (int c = 0; c < 3; ++c) {
-    MatrixXd body = MatrixXd::Zero(P, nk);
+    MatrixXd body = MatrixXd::Zero(P, n);
     for (int d = 0; d < 3; ++d) body += component(P, d, c).asDiagonal() * turn[d];
     VectorXd inertia = VectorXd::Zero(P);
     inertia.head(N) = rod_.rhoJ[c] * w;
     inertia[P - 1] = disc.inertia * (c == 2 ? 1.0 : 0.5);
-    M->topLeftCorner(nk, nk).noalias() += body.transpose() * inertia.asDiagonal() * body;
+    M->noalias() += body.transpose() * inertia.asDiagonal() * body;
     end_turn.row(c) = body.row(P - 1);
   }
 
@@ -249,7 +293,7 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
     K->block(at, at, count, count) = (c < 3 ? rod_.C_M[c] : rod_.C_F[c - 3]) * gram;
     D->block(at, at, count, count) = (c < 3 ? rod_.V_M[c] : rod_.V_F[c - 3]) * gram;
   }
-  D->topLeftCorner(nk, nk) += disc.dashpot * end_turn.row(2).transpose() * end_turn.row(2);
+  *D += disc.dashpot * end_turn.row(2).transpose() * end_turn.row(2);
 
   // Internal forces turn with neither section nor tangent: their work changes with both.
   MatrixXd moment_change[3];
@@ -259,6 +303,9 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
         VectorXd(w.array() * load.n.row(f).transpose().array()).asDiagonal() * slope[e] -
         VectorXd(w.array() * load.n.row(e).transpose().array()).asDiagonal() * slope[f];
     moment_change[d].noalias() = S.topRows(N).transpose() * lever;  // times the weights
+    for (int j = 0; j < hinge_; ++j) {
+      K->row(n - hinge_ + j) -= k.swivel(d, hingeAxis(j)) * lever.colwise().sum();
+    }
   }
   for (int c = 0; c < 6; ++c) {
     const Points& field = c < 3 ? load.m : load.n;
@@ -269,7 +316,7 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
         const Vector3d axis = k.frames.col(3 * i + c % 3);
         arm[i] = w[i] * axis.cross(Vector3d(field.col(i)))[d];
       }
-      change.leftCols(nk) += arm.asDiagonal() * turn[d].topRows(N);
+      change += arm.asDiagonal() * turn[d].topRows(N);
       if (c < 3) change += component(N, d, c).asDiagonal() * moment_change[d];
     }
     K->middleRows(shape_.offset(c), shape_.count(c)) -= shape_.basis(c).transpose() * change;
@@ -277,30 +324,43 @@ void RodDynamics::linearise(double t, const VectorXd& q, const VectorXd& v, cons
 
   for (const EndHold& hold : holds) {
     const Matrix3d R = hold.pose(t).R;
+    MatrixXd gap = MatrixXd::Zero(3, n), angle = MatrixXd::Zero(3, n);
     for (int c = 0; c < 3; ++c) {
-      VectorXd gap = VectorXd::Zero(n), angle = VectorXd::Zero(n);
       for (int d = 0; d < 3; ++d) {
-        gap += R(d, c) * shift[d].row(P - 1).transpose();
-        angle.head(nk) += R(d, c) * turn[d].row(P - 1).transpose();
+        gap.row(c) += R(d, c) * shift[d].row(P - 1);
+        angle.row(c) += R(d, c) * turn[d].row(P - 1);
       }
-      if (hold.position[c]) *K += holdForceStiffness() * gap * gap.transpose();
-      if (hold.rotation[c]) *K += holdMomentStiffness() * angle * angle.transpose();
-      if (hold.position[c]) *D += holdTime() * holdForceStiffness() * gap * gap.transpose();
-      if (hold.rotation[c]) *D += holdTime() * holdMomentStiffness() * angle * angle.transpose();
+    }
+    Vector3d force, moment;
+    for (int c = 0; c < 3; ++c) {
+      force[c] = hold.position[c] ? holdForceStiffness() : 0.0;
+      moment[c] = hold.rotation[c] && !holdGives(c) ? holdMomentStiffness() : 0.0;
+    }
+    const MatrixXd stiffness = gap.transpose() * force.asDiagonal() * gap +
+                               angle.transpose() * moment.asDiagonal() * angle;
+    *K += stiffness;
+    *D += holdTime() * stiffness;
+    if (holdGives(0) || holdGives(2)) {
+      Matrix3d spring, dashpot;
+      lineariseClamp(1, holdTurn(t, k), &spring, &dashpot);
+      *K += angle.transpose() * spring * angle;
+      *D += angle.transpose() * dashpot * angle;
     }
   }
+  if (!effects_.empty()) lineariseEffects(t, k, slope, D, K);
 }
 
 PointMotion RodDynamics::pointMotion(const MotionState& state,
                                      const Eigen::RowVectorXd& station) const {
   const Kinematics k = kinematics(state.t, state.q, state.v, state.a);
-  const FrameMotion base = clamp(state.t);
+  const FrameMotion& base = k.base;
   const VectorXd row = station.transpose();
   return {base.p + k.rp * row, base.v + k.v_s * row, base.a + k.a_s * row};
 }
 
 double RodDynamics::twist(const VectorXd& q, const Eigen::RowVectorXd& station) const {
-  return station.dot(shape_.basis(2) * q.segment(shape_.offset(2), shape_.count(2)));
+  return hingePart(q).z() +
+         station.dot(shape_.basis(2) * q.segment(shape_.offset(2), shape_.count(2)));
 }
 
 std::pair<Vector3d, Vector3d> RodDynamics::clampLoad(const MotionState& state) {
@@ -312,7 +372,7 @@ std::pair<Vector3d, Vector3d> RodDynamics::clampLoad(const MotionState& state) {
 RodDynamics::Energy RodDynamics::energy(const MotionState& state) const {
   const int N = shape_.nodes(), P = shape_.points();
   const Kinematics k = kinematics(state.t, state.q, state.v, state.a);
-  const FrameMotion base = clamp(state.t);
+  const FrameMotion& base = k.base;
   const Points position = (k.rp * shape_.integral().transpose()).colwise() + base.p;
   const Points velocity = (k.v_s * shape_.integral().transpose()).colwise() + base.v;
   Energy energy;

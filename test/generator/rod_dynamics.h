@@ -3,26 +3,17 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
-#include <functional>
+#include <memory>
 #include <utility>
 #include <vector>
 
+#include "effects/effect.h"
+#include "frame_motion.h"
 #include "radau.h"
 #include "rod.h"
 #include "rod_shape.h"
 
 namespace cosserat_cable::generator {
-
-/// Motion of a section frame {a1, a2, a3} in the world frame.
-struct FrameMotion {
-  Eigen::Vector3d p = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();      ///< [m/s]
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();      ///< [rad/s]
-  Eigen::Vector3d a = Eigen::Vector3d::Zero();      ///< [m/s^2]
-  Eigen::Vector3d alpha = Eigen::Vector3d::Zero();  ///< [rad/s^2]
-};
-using FrameCurve = std::function<FrameMotion(double t)>;
 
 /// A rigid body at end b, its centre of mass on the axis there.
 struct Disc {
@@ -46,7 +37,9 @@ struct PointMotion {
 
 /// Equations of motion of a rod clamped at s = 0, in its strain coordinates: internal forces
 /// follow from the inertia of all that lies beyond a section, and are weighed against the section
-/// laws in the sense of Galerkin (d'Alembert's principle in minimal coordinates).
+/// laws in the sense of Galerkin (d'Alembert's principle in minimal coordinates). Where an effect
+/// lets clamp a give way, the rotation vector of the section there against the clamp (two
+/// components for bending, one for torsion) follows the strains among the coordinates.
 class RodDynamics : public SecondOrderSystem {
  public:
   /// @param breaks further arc lengths [m] at which elements end, besides those of point masses.
@@ -60,17 +53,27 @@ class RodDynamics : public SecondOrderSystem {
   /// Constant forces [N] at arc lengths at which elements end.
   std::vector<std::pair<double, Eigen::Vector3d>> forces;
   double end_torque = 0.0;  ///< about a3 at end b [N m]
+  /// Statics: what relaxes has relaxed, and the clamp's motion makes no inertia.
+  bool settled = false;
+
+  /// Adds what the plain rod lacks. Before use; the rod must have been made for it (equip()).
+  void addEffect(std::shared_ptr<Effect> effect);
+  bool hasEffects() const { return !effects_.empty(); }
+  /// Makes the state the effects' history.
+  void commit(const MotionState& state);
 
   const Rod& rod() const { return rod_; }
   const RodShape& shape() const { return shape_; }
 
-  int size() const override { return shape_.size(); }
+  int size() const override { return shape_.size() + hinge_; }
   Eigen::VectorXd residual(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                            const Eigen::VectorXd& a) override;
   void linearise(double t, const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                  const Eigen::VectorXd& a, Eigen::MatrixXd* M, Eigen::MatrixXd* D,
                  Eigen::MatrixXd* K) override;
   Eigen::VectorXd scale() const override;
+  bool abrupt() const override;
+  void expectStep(double h) override { ahead_ = h; }
 
   /// Motion of the point at the arc length that `station` = shape().integralTo(s) stands for.
   PointMotion pointMotion(const MotionState& state, const Eigen::RowVectorXd& station) const;
@@ -94,6 +97,9 @@ class RodDynamics : public SecondOrderSystem {
     Points v_s, a_s;          ///< derivatives of velocity and acceleration by s at nodes
     Points w, alpha;          ///< angular velocity and acceleration at all points
     Points a;                 ///< acceleration at all points
+    FrameMotion base;         ///< of clamp a
+    ClampTurn turn;           ///< of the section against it
+    Eigen::Matrix3d swivel;   ///< angular velocity of the section over the turn's rate, world
   };
   struct Internal {
     Points n, m;                    ///< at nodes, world
@@ -107,10 +113,30 @@ class RodDynamics : public SecondOrderSystem {
   double holdForceStiffness() const;
   double holdMomentStiffness() const;
   double holdTime() const;
+  bool holdGives(int component) const;
+  ClampTurn holdTurn(double t, const Kinematics& k) const;
+  Eigen::Vector3d clampMoment(int end, const ClampTurn& turn) const;
+  Points stationForces(double t, const Kinematics& k, const Points& position,
+                       const Points& velocity) const;
+  Points stationPositions(const Kinematics& k) const;
+  Points stationVelocities(const Kinematics& k) const;
+  /// Derivatives by a clamp's turn and its rate, by differences.
+  void lineariseClamp(int end, const ClampTurn& turn, Eigen::Matrix3d* spring,
+                      Eigen::Matrix3d* dashpot) const;
+  void lineariseEffects(double t, const Kinematics& k, const Eigen::MatrixXd* slope,
+                        Eigen::MatrixXd* D, Eigen::MatrixXd* K) const;
+  Eigen::Vector3d hingePart(const Eigen::VectorXd& x) const;
+  int hingeAxis(int j) const { return hinge_ == 1 ? 2 : j; }
 
   Rod rod_;
   RodShape shape_;
   std::vector<double> point_mass_;  ///< at element ends [kg]
+  std::vector<std::shared_ptr<Effect>> effects_;
+  int hinge_ = 0;       ///< rotations of the section at clamp a: torsion, bending, or all three
+  double ahead_ = 0.0;  ///< the step that is about to be tried [s]
+  // Stations of loads: places, weights, rows that integrate to them and that interpolate at them.
+  Eigen::VectorXd station_s_, station_weights_;
+  Eigen::MatrixXd station_integral_, station_values_;
 };
 
 }  // namespace cosserat_cable::generator
