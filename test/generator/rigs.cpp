@@ -23,7 +23,8 @@ MotionState atRest(const VectorXd& q) {
 Vector3d motionOf(const RodDynamics& rod, const Channel& channel, const Eigen::RowVectorXd& station,
                   const MotionState& state) {
   if (channel.quantity >= Channel::Quantity::kAngle) {
-    return {rod.twist(state.q, station), rod.twist(state.v, station), rod.twist(state.a, station)};
+    return {rod.twist(state.q, station) - rod.unstressedTwist() * channel.s,
+            rod.twist(state.v, station), rod.twist(state.a, station)};
   }
   const PointMotion m = rod.pointMotion(state, station);
   return {m.position[channel.axis], m.velocity[channel.axis], m.acceleration[channel.axis]};

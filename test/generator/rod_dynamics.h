@@ -59,6 +59,12 @@ class RodDynamics : public SecondOrderSystem {
   /// Adds what the plain rod lacks. Before use; the rod must have been made for it (equip()).
   void addEffect(std::shared_ptr<Effect> effect);
   bool hasEffects() const { return !effects_.empty(); }
+  /// Of the rod with its effects [rad/m].
+  double unstressedTwist() const {
+    double sum = 0.0;
+    for (const auto& effect : effects_) sum += effect->unstressedTwist();
+    return sum;
+  }
   /// Makes the state the effects' history.
   void commit(const MotionState& state);
 

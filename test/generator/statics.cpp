@@ -191,6 +191,7 @@ VectorXd twistedEquilibrium(RodDynamics& rod, const VectorXd& rest, double angle
   const double L = rod.rod().length;
   const Eigen::RowVectorXd end = rod.shape().integralTo(L);
   const double start = rod.twist(rest, end);
+  angle += rod.unstressedTwist() * L;
   for (int stage = 1; stage <= kStages; ++stage) {
     const double target = start + static_cast<double>(stage) / kStages * (angle - start);
     double gap = target - rod.twist(q, end);

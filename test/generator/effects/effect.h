@@ -66,6 +66,8 @@ class Effect {
   virtual void commit(const SectionState&, const ClampTurn* /*turns*/) {}
   /// Whether Newton's method meets kinks.
   virtual bool abrupt() const { return false; }
+  /// Twist of the unstressed rod [rad/m]: angles count from it.
+  virtual double unstressedTwist() const { return 0.0; }
   /// Changes the rod before it is made.
   virtual void equip(CableData*) const {}
   /// A dashpot [N m s] about the axis between a disc at end b and the world.

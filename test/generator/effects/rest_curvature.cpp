@@ -6,6 +6,16 @@
 namespace cosserat_cable::generator {
 namespace {
 
+class RestCurvature : public LinearSection {
+ public:
+  RestCurvature(const Eigen::Vector3d& m, double twist)
+      : LinearSection(Eigen::Matrix3d::Zero(), m), twist_(twist) {}
+  double unstressedTwist() const override { return twist_; }
+
+ private:
+  double twist_;
+};
+
 EffectValues defaults(const EffectScale& scale, double size) {
   const double unit = size / scale.cable.length;
   return {{"k1", 0.014 * unit}, {"k2", -0.01 * unit}, {"twist", 0.1 * unit}};
@@ -15,7 +25,7 @@ std::unique_ptr<Effect> make(const EffectValues& values, const EffectSite& site)
   const Eigen::Vector3d m(site.cable.EI * valueOf(values, "k1"),
                           site.cable.EI * valueOf(values, "k2"),
                           site.cable.GJ * valueOf(values, "twist"));
-  return std::make_unique<LinearSection>(Eigen::Matrix3d::Zero(), m);
+  return std::make_unique<RestCurvature>(m, valueOf(values, "twist"));
 }
 
 }  // namespace
