@@ -212,6 +212,23 @@ void SimulateStatics(const Experiment& experiment, const SimulationOptions& opti
   }
 }
 
+/// Runs that can be stepped side by side: a clamp whose friction and springs are zero is rigid.
+std::vector<std::vector<Run>> GroupsAlike(std::vector<Run> runs) {
+  const auto ends = [](const Run& run) {
+    const rod::RodModel& model = run.rig->rod()->model();
+    return std::pair(model.a.clamped(), model.b.clamped());
+  };
+  std::vector<std::vector<Run>> groups;
+  for (Run& run : runs) {
+    auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Run>& one) {
+      return ends(one.front()) == ends(run);
+    });
+    if (group == groups.end()) group = groups.insert(groups.end(), std::vector<Run>());
+    group->push_back(std::move(run));
+  }
+  return groups;
+}
+
 }  // namespace
 
 std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
@@ -242,7 +259,8 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
     if (experiment.quasi_static())
       for (Run& run : runs) SimulateStatics(experiment, options, &run);
     else
-      SimulateMotion(experiment, options, std::move(runs));
+      for (std::vector<Run>& alike : GroupsAlike(std::move(runs)))
+        SimulateMotion(experiment, options, std::move(alike));
   }
   return results;
 }

@@ -39,7 +39,7 @@ class EndPart {
   /// What laws with internal variables go by.
   enum class Memory {
     kKept,   ///< where the last step has left them
-    kRested  ///< as after a long rest wherever the section is
+    kRested  ///< as of an end that has come to where it is once, straight from zero
   };
   /// Moment of springs, dashpots and laws on the node [N m], section frame.
   Eigen::Vector3d SpringMoment(const Node<double>& node, Memory memory = Memory::kKept) const;

@@ -157,7 +157,7 @@ void Rod::Impl::BeginStatics(EndPart::Memory memory) {
   w.trial = w.node;
   ImposeEnds(ends, &w);
   PrepareStatics();
-  if (memory == EndPart::Memory::kRested) laws.Reset();
+  if (memory_ == EndPart::Memory::kRested) laws.Reset();
 }
 
 void Rod::Impl::Soften(const Load* load, SolveReport* report) {

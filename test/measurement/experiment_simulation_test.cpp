@@ -323,5 +323,21 @@ TEST(ExperimentSimulationTest, ALargeSwingAtTheStartKeepsTheCablesLength) {
   EXPECT_LT(deflection, kAmplitude);
 }
 
+TEST(ExperimentSimulationTest, ARigidClampAndOneThatGivesWayGoSideBySide) {
+  const Experiment experiment = RingDown(0.001, 0.5, 101);
+  const Specimen rigid = CableSpecimen();
+  Specimen soft = rigid;
+  soft.cable.extensions = {{"clamp_compliance", {{{"a.bending", 0.5}}}}};
+  const std::vector<Specimen> specimens = {rigid, soft, rigid};
+  const std::vector<SimulatedRecord> together = SimulateExperiment(experiment, specimens, Fine());
+  constexpr double kRounding = 1e-9;  // [m]: lanes and single rods end Newton's iterations alike
+  for (std::size_t k = 0; k < specimens.size(); ++k) {
+    const SimulatedRecord alone = SimulateExperiment(experiment, {specimens[k]}, Fine()).front();
+    ASSERT_TRUE(together[k].ok && alone.ok) << together[k].message << alone.message;
+    EXPECT_LT((together[k].values - alone.values).cwiseAbs().maxCoeff(), kRounding) << k;
+  }
+  EXPECT_GT((together[1].values - together[0].values).cwiseAbs().maxCoeff(), 1e-4);
+}
+
 }  // namespace
 }  // namespace cosserat_cable

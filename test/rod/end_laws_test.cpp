@@ -85,13 +85,17 @@ TEST(EndLawTest, FrictionLosesWhatItsMomentDoesOnTheWay) {
   EXPECT_NEAR(work, lost + friction.Energy(before) - energy_at_start, kRelative * lost);
 }
 
-TEST(EndLawTest, FrictionCarriesNothingAfterALongRest) {
+TEST(EndLawTest, FrictionAtRestHasTurnedOnceFromZero) {
+  const Vector3d little(0.3 * kSlipMoment / kStuck, -0.4 * kSlipMoment / kStuck, 0);
+  const Vector3d far = 10 * little;
   ClampFriction friction(kStuck, kSlipMoment);
-  friction.Commit({0.03, -0.01, 0});
-  EXPECT_GT(friction.Energy({0.03, -0.01, 0}), 0);
-  EXPECT_EQ(friction.ResistAtRest({0.03, -0.01, 0}).moment.norm(), 0);
-  friction.Rest({0.03, -0.01, 0});
-  EXPECT_EQ(friction.Energy({0.03, -0.01, 0}), 0);
+  friction.Commit(-far);  // a past that rest forgets
+  EXPECT_NEAR((friction.ResistAtRest(little).moment - kStuck * little).norm(), 0,
+              1e-12 * kSlipMoment);
+  EXPECT_NEAR((friction.ResistAtRest(far).moment - kSlipMoment * far.normalized()).norm(), 0,
+              1e-12 * kSlipMoment);
+  friction.Rest(far);
+  EXPECT_NEAR(friction.Energy(far), 0.5 * kSlipMoment * kSlipMoment / kStuck, 1e-12 * kSlipMoment);
 }
 
 // ---- At the end of a rod ------------------------------------------------------------------------
@@ -147,16 +151,20 @@ TEST(EndLawTest, ARubbingClampHasTheLoopOfItsAmplitude) {
 
 TEST(EndLawTest, RestForgetsFrictionAndHistoryKeepsIt) {
   constexpr double kTolerance = 1e-9;  // [N m]: Newton's last correction
-  const double K = kEI / kLength, soft = 1 / (1 / K + 1 / kSpring);
+  const double K = kEI / kLength;
+  // The end's turn A where the clamp's angle is 0.5, and it slips; then back to 0.45, and it
+  // sticks.
+  const double there = 0.5, back = 0.45;
+  const double A = (K * there - kSlipMoment) / (K + kSpring);
+  ASSERT_GT(A, kSlipMoment / kStuck);
   Rod rod = PurelyBent(std::make_shared<ClampFriction>(kStuck, kSlipMoment), kSpring);
-  EXPECT_NEAR(MomentAt(0.5, Vector3d::UnitX(), &rod), 0.5 * soft, kTolerance)
-      << "the first has no past";
-  const double A = 0.5 * K / (K + kSpring), further = 0.02;
-  const double stiff = 1 / (1 / K + 1 / (kSpring + kStuck));
-  EXPECT_NEAR(MomentAt(0.5 + further, Vector3d::UnitX(), &rod), kSpring * A + (further - 0) * stiff,
-              kTolerance);
+  EXPECT_NEAR(MomentAt(there, Vector3d::UnitX(), &rod), K * (there - A), kTolerance);
+  const double A_back = (K * back - kSlipMoment + kStuck * A) / (K + kSpring + kStuck);
+  ASSERT_LT(A - A_back, 2 * kSlipMoment / kStuck);
+  EXPECT_NEAR(MomentAt(back, Vector3d::UnitX(), &rod), K * (back - A_back), kTolerance);
+  const double A_once = (K * back - kSlipMoment) / (K + kSpring);
   ASSERT_TRUE(rod.Equilibrate().converged);
-  EXPECT_NEAR(rod.reaction_b().moment.x(), (0.5 + further) * soft, kTolerance);
+  EXPECT_NEAR(rod.reaction_b().moment.x(), K * (back - A_once), kTolerance);
 }
 
 TEST(EndLawTest, ALooseClampTurnsFreelyAndThenNot) {

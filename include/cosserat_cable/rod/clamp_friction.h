@@ -13,7 +13,8 @@ namespace cosserat_cable::rod {
 ///
 /// integrated by radial return (Simo and Hughes, Computational Inelasticity, 1998, ch. 3), which is
 /// exact where the way is straight. A cycle between -A and A that slips loses
-/// 4 slip_moment (A - slip_moment/stuck).
+/// 4 slip_moment (A - slip_moment/stuck). An end at rest has been turned once, straight from psi = 0,
+/// as a section's friction has been bent once.
 class ClampFriction final : public EndLaw {
  public:
   /// @pre both are positive: `stuck` [N m/rad], `slip_moment` [N m]
@@ -23,12 +24,19 @@ class ClampFriction final : public EndLaw {
   Resistance Resist(const Eigen::Vector3d& psi, const Eigen::Vector3d& rate) const override;
   double Potential(const Eigen::Vector3d& psi) const override;
   double Commit(const Eigen::Vector3d& psi) override;
-  Resistance ResistAtRest(const Eigen::Vector3d&) const override { return {}; }
-  double PotentialAtRest(const Eigen::Vector3d&) const override { return 0; }
-  void Rest(const Eigen::Vector3d& psi) override { slip_ = psi.head<2>(); }
+  Resistance ResistAtRest(const Eigen::Vector3d& psi) const override {
+    return New().Resist(psi, Eigen::Vector3d::Zero());
+  }
+  double PotentialAtRest(const Eigen::Vector3d& psi) const override { return New().Potential(psi); }
+  void Rest(const Eigen::Vector3d& psi) override {
+    slip_.setZero();
+    Commit(psi);
+  }
   double Energy(const Eigen::Vector3d& psi) const override;
 
  private:
+  /// The same, never turned.
+  ClampFriction New() const { return ClampFriction(stuck_, slip_moment_); }
   /// Of the spring if nothing slipped.
   Eigen::Vector2d Trial(const Eigen::Vector3d& psi) const {
     return stuck_ * (psi.head<2>() - slip_);

@@ -42,8 +42,8 @@ class EndLaw {
   /// The step ends here. Returns what the internal variables have turned into heat in it [J].
   virtual double Commit(const Eigen::Vector3d& psi) = 0;
 
-  /// After a long rest at `psi`, shaken loose: a friction carries nothing any more. Those without
-  /// internal variables do the same as ever.
+  /// Of an end that has come to `psi` once, straight from zero. Those without internal variables do
+  /// the same as ever.
   virtual Resistance ResistAtRest(const Eigen::Vector3d& psi) const {
     return Resist(psi, Eigen::Vector3d::Zero());
   }

@@ -108,15 +108,15 @@ class Rod : public Centreline {
 
   /// Static equilibrium by energy minimisation from the present configuration (regularised Newton
   /// with a line search) with the ends held by the clamps. Velocities become zero. Under a load
-  /// without a potential, by Newton's method with bounded steps: then from near enough. A section's
-  /// laws forget what they were: they come to this rest once, straight from the unstressed state.
+  /// without a potential, by Newton's method with bounded steps: then from near enough. Laws of
+  /// sections and ends forget what they were: they come to this rest once, straight from the
+  /// unstressed state.
   SolveReport Equilibrate(const Load* load = nullptr);
   /// The same from a configuration that is nearly there, without a detour by way of rods that
   /// stretch more easily: for loads that hold only where they were seen, as contact.
   SolveReport EquilibrateNearby(const Load* load = nullptr);
-  /// The next of a slow sequence of equilibria: frictions are where the last state left them, where
-  /// Equilibrate finds the rest in which, shaken loose, they carry nothing. The first state after
-  /// SetConfiguration has no past and is of the latter kind.
+  /// The next of a slow sequence of equilibria: laws go on from where the last state left them. The
+  /// first one after SetConfiguration has no past: it is as of Equilibrate.
   SolveReport EquilibrateWithHistory(const Load* load = nullptr);
 
   /// Advances by `dt` [s] to clamps at `a` and `b`. Their velocities are those that the time scheme
