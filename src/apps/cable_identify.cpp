@@ -35,6 +35,8 @@ int main(int argc, char** argv) {
                "take the loss D_E at a disc for zero instead of estimating it");
   app.add_flag("!--no-profiles", options.profiles,
                "leave out the profiles of the likelihood: intervals from the curvature alone");
+  app.add_flag("!--no-slips", options.slips,
+               "leave out the search for channels that were recorded otherwise than the set says");
   app.add_flag("!--no-direct", options.direct,
                "leave out the evaluation from frequencies and decay rates alone");
   auto* plan =

@@ -59,6 +59,7 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   estimation_options.unknowns = options.unknowns;
   estimation_options.profiles = options.profiles;
   estimation_options.use_damaged = options.use_damaged;
+  estimation_options.slips = options.slips;
   Estimation estimation;
   DirectEvaluation direct;
   Plan plan;
