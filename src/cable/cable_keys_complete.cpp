@@ -2,7 +2,7 @@
 #include <array>
 #include <cmath>
 
-#include "cable_key_specs.h"
+#include "cosserat_cable/cable/cable_key_specs.h"
 #include "cosserat_cable/cable/cable_keys.h"
 #include "cosserat_cable/cable/contact_stiffness.h"
 #include "cosserat_cable/input/number_text.h"

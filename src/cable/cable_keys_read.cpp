@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <set>
 
-#include "cable_key_specs.h"
+#include "cosserat_cable/cable/cable_key_specs.h"
 #include "cosserat_cable/cable/cable_keys.h"
 #include "extensions.h"
 #include "parameter_spec.h"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "approaches.h"
-#include "contact_sites.h"
 #include "cosserat_cable/cable/cable_simulation.h"
+#include "cosserat_cable/cable/contact_sites.h"
 #include "cosserat_cable/contact/tracker.h"
 #include "cosserat_cable/rod/load.h"
 #include "element_watches.h"

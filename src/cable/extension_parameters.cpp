@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "extension_law.h"
+#include "cosserat_cable/cable/extension_law.h"
 #include "extensions.h"
 #include "parameter_spec.h"
 

@@ -5,8 +5,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "cosserat_cable/cable/extension_law.h"
 #include "cosserat_cable/input/number_text.h"
-#include "extension_law.h"
 #include "read_pair.h"
 
 namespace cosserat_cable {

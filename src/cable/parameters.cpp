@@ -6,7 +6,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "cable_key_specs.h"
+#include "cosserat_cable/cable/cable_key_specs.h"
 #include "extensions.h"
 #include "parameter_spec.h"
 

@@ -11,10 +11,6 @@ namespace cosserat_cable {
 /// identification.json.
 nlohmann::json AnswerJson(const MeasurementSet& set, const Estimation& estimation);
 
-/// identified_cable.yaml: a specimen with what was identified, each number with its uncertainty,
-/// and with what was not, marked so.
-std::string IdentifiedCableText(const MeasurementSet& set, const Estimation& estimation);
-
 /// fit/NAME.csv: the record's columns, and beside each the simulated one (COLUMN.fit).
 std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit);
 

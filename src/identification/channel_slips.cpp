@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <limits>
 
+#include "cosserat_cable/fit/damage.h"
+#include "cosserat_cable/fit/noise_level.h"
 #include "cosserat_cable/input/number_text.h"
-#include "damage.h"
-#include "noise_level.h"
 #include "slip_model.h"
 
 namespace cosserat_cable {

@@ -2,8 +2,8 @@
 
 #include "channel_slips.h"
 #include "cosserat_cable/cable/parameters.h"
+#include "cosserat_cable/fit/noise_level.h"
 #include "cosserat_cable/input/number_text.h"
-#include "noise_level.h"
 
 namespace cosserat_cable {
 namespace {

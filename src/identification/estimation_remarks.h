@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/fit/unknowns.h"
 #include "cosserat_cable/identification/estimation.h"
-#include "cosserat_cable/identification/unknowns.h"
 
 namespace cosserat_cable {
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/fit/fit.h"
+#include "cosserat_cable/fit/information.h"
+#include "cosserat_cable/fit/noise.h"
 #include "cosserat_cable/identification/estimation.h"
-#include "fit.h"
-#include "information.h"
-#include "noise.h"
 #include "profile.h"
 #include "record_scatter.h"
 

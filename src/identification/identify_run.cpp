@@ -1,8 +1,5 @@
 #include "cosserat_cable/identification/identify_run.h"
 
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -14,32 +11,16 @@
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
 #include "cosserat_cable/console/progress.h"
+#include "cosserat_cable/console/run_program.h"
 #include "cosserat_cable/identification/direct_evaluation.h"
 #include "cosserat_cable/identification/estimation.h"
+#include "cosserat_cable/identification/identified_cable.h"
 #include "plan_answer.h"
 
 namespace cosserat_cable {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Runs a program and waits for it.
-/// @return whether it ended with 0
-bool RunProgram(const std::vector<std::string>& arguments) {
-  const pid_t child = fork();
-  if (child < 0) return false;
-  if (child == 0) {
-    std::vector<char*> argv;
-    for (const std::string& argument : arguments)
-      argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    execvp(argv[0], argv.data());
-    std::perror(argv[0]);
-    _exit(127);
-  }
-  int status = 0;
-  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-}
 
 }  // namespace
 

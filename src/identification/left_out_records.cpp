@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/fit/damage.h"
+#include "cosserat_cable/fit/noise_level.h"
 #include "cosserat_cable/input/number_text.h"
-#include "damage.h"
 #include "estimation_work.h"
-#include "noise_level.h"
 
 namespace cosserat_cable {
 namespace {

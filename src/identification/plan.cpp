@@ -5,8 +5,8 @@
 #include <limits>
 
 #include "cosserat_cable/cable/parameters.h"
-#include "fit.h"
-#include "information.h"
+#include "cosserat_cable/fit/fit.h"
+#include "cosserat_cable/fit/information.h"
 
 namespace cosserat_cable {
 namespace {

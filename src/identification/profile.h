@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "cosserat_cable/fit/fit.h"
 #include "cosserat_cable/identification/estimation.h"
-#include "fit.h"
 
 namespace cosserat_cable {
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cosserat_cable/cable/parameters.h"
-#include "information.h"
+#include "cosserat_cable/fit/information.h"
 
 namespace cosserat_cable {
 namespace {

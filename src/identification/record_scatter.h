@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cosserat_cable/identification/record_model.h"
-#include "fit.h"
-#include "noise.h"
+#include "cosserat_cable/fit/fit.h"
+#include "cosserat_cable/fit/noise.h"
+#include "cosserat_cable/fit/record_model.h"
 
 namespace cosserat_cable {
 

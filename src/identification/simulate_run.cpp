@@ -16,10 +16,10 @@
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
 #include "cosserat_cable/console/progress.h"
+#include "cosserat_cable/fit/start_estimate.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/experiment_simulation.h"
 #include "cosserat_cable/measurement/record_csv.h"
-#include "start_estimate.h"
 
 namespace cosserat_cable {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "damage.h"
+#include "cosserat_cable/fit/damage.h"
 
 namespace cosserat_cable {
 namespace {

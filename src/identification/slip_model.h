@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cosserat_cable/identification/record_model.h"
+#include "cosserat_cable/fit/record_model.h"
 
 namespace cosserat_cable {
 

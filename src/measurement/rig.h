@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clamp_path.h"
-#include "cosserat_cable/cable/drift.h"
+#include "cosserat_cable/causes/drift.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "cosserat_cable/measurement/specimen.h"
 #include "cosserat_cable/rod/point_loads.h"

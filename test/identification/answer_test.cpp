@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "cosserat_cable/identification/identified_cable.h"
+
 namespace cosserat_cable {
 namespace {
 

@@ -17,8 +17,11 @@ BELOW = {
     'rod': {'math'},
     'contact': {'math', 'input'},
     'cable': {'rod', 'contact', 'input', 'math'},
-    'measurement': {'cable', 'rod', 'contact', 'input', 'math'},
-    'identification': {'console', 'measurement', 'cable', 'rod', 'contact', 'input', 'math'},
+    'causes': {'cable', 'rod', 'contact', 'input', 'math'},
+    'measurement': {'causes', 'cable', 'rod', 'contact', 'input', 'math'},
+    'fit': {'measurement', 'causes', 'cable', 'rod', 'contact', 'input', 'math'},
+    'identification': {'fit', 'console', 'measurement', 'causes', 'cable', 'rod', 'contact', 'input',
+                       'math'},
     'vehicle': {'math', 'input', 'contact'},
 }
 # These may include every room, and ROS.

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "cosserat_cable/identification/record_model.h"
-#include "cosserat_cable/identification/unknowns.h"
+#include "cosserat_cable/fit/information.h"
+#include "cosserat_cable/fit/noise_level.h"
+#include "cosserat_cable/fit/record_model.h"
+#include "cosserat_cable/fit/unknowns.h"
 #include "cosserat_cable/input/problems.h"
 
 namespace cosserat_cable {
@@ -50,26 +52,6 @@ struct ParameterEstimate {
   double quantile = 0;       ///< standard deviations to the ends of the curvature's interval
   std::string reason;        ///< why it is not determined
   Profile profile;
-};
-
-/// What the data do say about parameters that they do not determine one by one.
-struct Combination {
-  std::string text;  ///< "eta_GJ/L + D_E"
-  double value = 0, sd = 0;
-  std::string unit;
-};
-
-/// How large a channel's noise is, independently of any fit.
-struct NoiseLevel {
-  enum class Source {
-    kUnknown,  ///< there is no way to tell: the fit's own residual has to stand for it
-    kGiven,    ///< by the set
-    kRecord,   ///< from how rough the record is
-    kRepeats   ///< from steps at which the same was done
-  };
-  Source source = Source::kUnknown;
-  double sd = 0;       ///< [the channel's unit]; an upper bound, or zero, where it is unknown
-  double freedom = 0;  ///< degrees of freedom of the estimate
 };
 
 struct ChannelFit {

@@ -4,8 +4,8 @@
 #include <string>
 
 #include "cosserat_cable/console/exit_code.h"
+#include "cosserat_cable/fit/unknowns.h"
 #include "cosserat_cable/identification/plan.h"
-#include "cosserat_cable/identification/unknowns.h"
 
 namespace cosserat_cable {
 

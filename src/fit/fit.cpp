@@ -1,0 +1,521 @@
+#include "cosserat_cable/fit/fit.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <random>
+
+#include "cosserat_cable/fit/noise.h"
+#include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/rod/rod_batch.h"
+#include "least_squares.h"
+
+namespace cosserat_cable {
+namespace {
+
+constexpr int kMaxIterations = 40;
+constexpr int kLooseIterations = 12;
+// What ends a fit: a gain, by the noise's variance, that moves no parameter by a tenth of its
+// standard deviation; on the way, this part of the samples.
+constexpr double kSmallGain = 5e-3, kLoose = 1e-3;
+// The same where what is left is no noise: its parts depend on each other for long.
+constexpr double kOfMisfit = 1e-4;
+// Of the differences, in the unknowns' scales; what they should do to a record, in parts of its
+// noise, so that they are neither rounding nor bent; below which part of that, and by which factor
+// in the step, it is worth another try.
+constexpr double kSmallestStep = 1e-6, kLargestStep = 0.03, kEffect = 0.3;
+constexpr double kFaintEffect = 0.01, kCoarser = 10;
+// The largest factor of a stiffness in one iteration.
+constexpr double kFarthest = 5;
+// No channel is taken to be better than this part of the widest range of its kind in its record:
+// simulations are not.
+constexpr double kBestChannel = 1e-7;
+// Parts of the records that are fitted one after the other, and the fewest samples of a part.
+constexpr double kParts[] = {0.06, 0.25, 1.0};
+constexpr int kFewestSamples = 40;
+// Of the slowest swing: in the first, the start is seen whatever the cable, in the second both.
+constexpr double kStartPeriods[] = {0.3, 1.0};
+// Of what is left over, what a parameter should explain at least when it moves by its whole size.
+constexpr double kPower = 0.01;
+const FitOptions kOnTheWay = [] {
+  FitOptions options;
+  options.loose = true;
+  return options;
+}();
+// Where the search looks: around the start, within these factors.
+constexpr double kStiffnessSpread = 1.6, kWideSpread = 6.0;
+constexpr int kPoints = 24, kBest = 2;
+// A derivative whose records, over the unknown's whole size, stay below this part of the noise's
+// sum of squares is none.
+constexpr double kUnseen = 1e-3;
+// Steps with old derivatives; the gain in the sum of squares that is not worth another, and the
+// loss that rounding may make.
+constexpr int kPolishSteps = 6;
+constexpr double kPolished = 1e-4, kPolishNoise = 1e-2;
+constexpr std::uint32_t kSeed = 20150113;
+
+/// Half the sums of squares, infinite where a simulation failed.
+std::vector<double> CostsOf(const RecordModel& model, const std::vector<Eigen::VectorXd>& points,
+                            const std::vector<RecordModel::Simulated>& found,
+                            const NoiseLevels& noise) {
+  std::vector<double> costs;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    costs.push_back(std::numeric_limits<double>::infinity());
+    if (!found[p].ok) continue;
+    const double cost =
+        0.5 * WeightedResiduals(model, points[p], found[p].records, noise).squaredNorm();
+    if (std::isfinite(cost)) costs.back() = cost;
+  }
+  return costs;
+}
+
+/// All records, by the unknowns' variables.
+class RecordProblem : public LeastSquaresProblem {
+ public:
+  RecordProblem(const RecordModel& model, const Horizon& horizon, const NoiseLevels& noise,
+                const FitProgress& progress, const Eigen::VectorXd& steps, double samples)
+      : model_(model),
+        horizon_(horizon),
+        noise_(noise),
+        progress_(progress),
+        samples_(samples),
+        steps_(steps) {
+    first_ = steps_.size() == 0;
+    if (first_) steps_ = model.SmallSteps();
+  }
+
+  Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
+                          std::vector<double>* costs) override {
+    std::vector<Eigen::VectorXd> beside;
+    for (const Eigen::VectorXd& other : others) beside.push_back(ValuesOf(other));
+    Linearised found =
+        cosserat_cable::Linearise(model_, ValuesOf(x), horizon_, noise_,
+                                  RecordModel::Difference::kForward, first_, &steps_, beside);
+    *costs = found.other_costs;
+    Linearisation at;
+    at.ok = found.ok;
+    message_ = found.message;
+    if (!found.ok) return at;
+    first_ = false;
+    jacobian_ = std::move(found.jacobian);
+    at.cost = 0.5 * found.residuals.squaredNorm();
+    at.gram = jacobian_.Gram();
+    at.gradient = jacobian_.TransposeTimes(found.residuals);
+    // What no record shows is left alone: its derivatives are rounding.
+    const Eigen::VectorXd seen = jacobian_.SquaredNorms();
+    for (int i = 0; i < seen.size(); ++i)
+      if (seen[i] < kUnseen && jacobian_.priors()[i] == 0) at.gram(i, i) = 0;
+    for (int i = 0; i < x.size(); ++i) {
+      const double slope = VariableSlope(Of(i), x[i]);
+      if (slope == 1) continue;
+      at.gram.row(i) *= slope;
+      at.gram.col(i) *= slope;
+      at.gradient[i] *= slope;
+    }
+    return at;
+  }
+
+  std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) override {
+    std::vector<Eigen::VectorXd> all;
+    for (const Eigen::VectorXd& x : points) all.push_back(ValuesOf(x));
+    return CostsOf(model_, all, model_.Simulate(all, horizon_), noise_);
+  }
+
+  int SideBySide() const override { return rod::RodBatch::PreferredRods(); }
+  int Room() const override {
+    // What the differences leave of the lanes, or as many lanes more.
+    const int lanes = rod::RodBatch::PreferredRods();
+    return lanes - 1 - model_.MostShown() % lanes;
+  }
+
+  bool GoOn(int iteration, double cost) override {
+    if (model_.Stopping()) return false;
+    const double times_noise = std::sqrt(2 * cost / std::max(samples_, 1.0));
+    return !progress_ || progress_("iteration " + std::to_string(iteration) + ", " +
+                                   FormatRounded(times_noise, 2) + " times the noise");
+  }
+
+  /// No stiffness changes by more than a factor in one step: derivatives do not reach farther. What
+  /// may vanish comes nearer to nothing by as much at most, and grows as it likes.
+  void Restrain(const Eigen::VectorXd& x, Eigen::VectorXd* next) const override {
+    for (int i = 0; i < x.size(); ++i) {
+      const Unknown& u = Of(i);
+      if (u.kind != Unknown::Kind::kCable || u.damping || !(x[i] > 0)) continue;
+      if (u.sign == ParameterSign::kSigned) continue;
+      double& to = (*next)[i];
+      if (u.scaling == Unknown::Scaling::kLogarithmic) {
+        to = std::clamp(to, x[i] - std::log(kFarthest), x[i] + std::log(kFarthest));
+        continue;
+      }
+      to = std::max(to, x[i] / kFarthest);
+      const bool linear = u.scaling == Unknown::Scaling::kLinear;
+      if (linear && u.sign == ParameterSign::kPositive) to = std::min(to, x[i] * kFarthest);
+    }
+  }
+
+  const RecordJacobian& jacobian() const { return jacobian_; }
+  const Eigen::VectorXd& steps() const { return steps_; }
+  const std::string& message() const { return message_; }
+
+  Eigen::VectorXd ValuesOf(const Eigen::VectorXd& x) const {
+    Eigen::VectorXd values(x.size());
+    for (int i = 0; i < x.size(); ++i) values[i] = ValueOf(Of(i), x[i]);
+    return values;
+  }
+  Eigen::VectorXd VariablesOf(const Eigen::VectorXd& values) const {
+    Eigen::VectorXd x(values.size());
+    for (int i = 0; i < x.size(); ++i) x[i] = VariableOf(Of(i), values[i]);
+    return x;
+  }
+
+ private:
+  const Unknown& Of(int i) const { return model_.unknowns().all()[static_cast<std::size_t>(i)]; }
+
+  const RecordModel& model_;
+  const Horizon& horizon_;
+  const NoiseLevels& noise_;
+  const FitProgress& progress_;
+  double samples_;
+  Eigen::VectorXd steps_;
+  bool first_ = true;
+  RecordJacobian jacobian_;
+  std::string message_;
+};
+
+int SamplesUntil(const Experiment& experiment, double time) {
+  const std::vector<double>& t = experiment.record.t;
+  return static_cast<int>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
+}
+
+void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, RecordModel* model) {
+  Eigen::VectorXd steps = model->SmallSteps();
+  const Linearised found = Linearise(*model, values, model->WholeHorizon(), noise,
+                                     RecordModel::Difference::kForward, true, &steps);
+  if (!found.ok) return;
+  const auto& records = found.jacobian.records();
+  for (std::size_t e = 0; e < records.size(); ++e)
+    for (std::size_t k = 0; k < records[e].unknowns.size(); ++k)
+      if (records[e].columns.col(static_cast<Eigen::Index>(k)).squaredNorm() < kUnseen)
+        model->Ignore(records[e].unknowns[k], static_cast<int>(e));
+}
+
+/// What is known of a law beyond the plain rod is little more than its size.
+bool IsOfExtension(const std::string& name) { return name.find('.') != std::string::npos; }
+
+/// Spread evenly over the box around the start, the same on each run.
+std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
+  std::mt19937 random(kSeed);
+  // A Latin hypercube: every unknown takes each of its levels once.
+  std::vector<std::vector<int>> levels(unknowns.size());
+  for (auto& order : levels) {
+    order.resize(kPoints);
+    for (int k = 0; k < kPoints; ++k) order[k] = k;
+    for (int k = kPoints - 1; k > 0; --k)
+      std::swap(order[k], order[random() % static_cast<std::uint32_t>(k + 1)]);
+  }
+  std::vector<Eigen::VectorXd> points;
+  for (int k = 0; k < kPoints; ++k) {
+    Eigen::VectorXd values = unknowns.StartValues();
+    for (int i = 0; i < unknowns.size(); ++i) {
+      const Unknown& u = unknowns.all()[i];
+      if (u.kind != Unknown::Kind::kCable) continue;
+      const double level = 2 * (levels[i][k] + 0.5) / kPoints - 1;  // in (-1, 1)
+      if (u.sign == ParameterSign::kSigned) {
+        values[i] += level * u.scale;
+      } else {
+        const bool hardly_known = u.damping ? !u.start_known : IsOfExtension(u.name);
+        const double spread = hardly_known ? kWideSpread : kStiffnessSpread;
+        values[i] = (values[i] > 0 ? values[i] : u.scale) * std::pow(spread, level);
+      }
+      values[i] = std::clamp(values[i], u.lower, u.upper);
+    }
+    points.push_back(values);
+  }
+  return points;
+}
+
+}  // namespace
+
+double SmallestNoise(const Experiment& experiment, int channel) {
+  const auto& channels = experiment.channels;
+  double widest = 0;
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (channels[c].quantity != channels[static_cast<std::size_t>(channel)].quantity) continue;
+    const auto column = experiment.record.values.col(static_cast<Eigen::Index>(c));
+    widest = std::max(widest, column.maxCoeff() - column.minCoeff());
+  }
+  return std::max(kBestChannel * widest, std::numeric_limits<double>::min() * 1e10);
+}
+
+NoiseLevels GuessNoise(const RecordModel& model) {
+  NoiseLevels noise;
+  for (const Experiment& experiment : model.unknowns().set().experiments) {
+    const Eigen::MatrixXd& values = experiment.record.values;
+    const Eigen::MatrixXd& usable = model.usable()[noise.size()];
+    Eigen::VectorXd levels(values.cols());
+    for (Eigen::Index c = 0; c < values.cols(); ++c) {
+      const auto& sigma = experiment.channels[static_cast<std::size_t>(c)].sigma;
+      levels[c] = std::max(sigma ? *sigma : NoiseOfSmooth(values.col(c), usable.col(c)),
+                           SmallestNoise(experiment, static_cast<int>(c)));
+    }
+    noise.push_back(levels);
+  }
+  return noise;
+}
+
+Eigen::MatrixXd SampleWeights(const RecordModel& model, std::size_t e, const NoiseLevels& noise) {
+  Eigen::MatrixXd weights = model.usable()[e];
+  for (Eigen::Index c = 0; c < weights.cols(); ++c)
+    for (Eigen::Index i = 0; i < weights.rows(); ++i)
+      weights(i, c) /= std::hypot(noise[e][c], model.error()[e](i, c));
+  return weights;
+}
+
+int FirstRow(const RecordModel& model, int experiment) {
+  int row = 0;
+  for (int e = 0; e < experiment; ++e)
+    row += static_cast<int>(model.usable()[static_cast<std::size_t>(e)].size());
+  return row;
+}
+
+Eigen::VectorXd WeightedResiduals(const RecordModel& model, const Eigen::VectorXd& values,
+                                  const Records& simulated, const NoiseLevels& noise) {
+  const auto& experiments = model.unknowns().set().experiments;
+  std::vector<double> residuals;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const Eigen::MatrixXd weights = SampleWeights(model, e, noise);
+    for (int c = 0; c < simulated[e].cols(); ++c)
+      for (int i = 0; i < simulated[e].rows(); ++i)
+        residuals.push_back(weights(i, c) *
+                            (experiments[e].record.values(i, c) - simulated[e](i, c)));
+  }
+  for (int i = 0; i < model.unknowns().size(); ++i) {
+    const Unknown& u = model.unknowns().all()[i];
+    if (u.prior_sd > 0) residuals.push_back((u.start - values[i]) / u.prior_sd);
+  }
+  return Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<int>(residuals.size()));
+}
+
+RecordJacobian WeightedJacobian(const RecordModel& model,
+                                const RecordModel::Derivatives& derivatives,
+                                const NoiseLevels& noise) {
+  std::vector<RecordJacobian::Record> records;
+  for (std::size_t e = 0; e < derivatives.slopes.size(); ++e) {
+    const auto& slopes = derivatives.slopes[e];
+    const Eigen::MatrixXd& shown = derivatives.at.records[e];
+    const Eigen::MatrixXd weights = SampleWeights(model, e, noise).topRows(shown.rows());
+    RecordJacobian::Record record;
+    record.columns.resize(shown.size(), static_cast<Eigen::Index>(slopes.size()));
+    for (std::size_t k = 0; k < slopes.size(); ++k) {
+      record.unknowns.push_back(slopes[k].unknown);
+      const Eigen::MatrixXd weighted = -slopes[k].by.cwiseProduct(weights);
+      record.columns.col(static_cast<Eigen::Index>(k)) =
+          Eigen::Map<const Eigen::VectorXd>(weighted.data(), weighted.size());
+    }
+    records.push_back(std::move(record));
+  }
+  Eigen::VectorXd priors = Eigen::VectorXd::Zero(model.unknowns().size());
+  for (int i = 0; i < priors.size(); ++i) {
+    const Unknown& u = model.unknowns().all()[i];
+    if (u.prior_sd > 0) priors[i] = -u.scale / u.prior_sd;
+  }
+  return RecordJacobian(std::move(records), priors);
+}
+
+Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
+                     const Horizon& horizon, const NoiseLevels& noise,
+                     RecordModel::Difference difference, bool again, Eigen::VectorXd* steps,
+                     const std::vector<Eigen::VectorXd>& others) {
+  Linearised result;
+  RecordModel::Derivatives found = model.Differentiate(values, horizon, difference, *steps, others);
+  result.other_costs = CostsOf(model, others, found.others, noise);
+  for (;; again = false) {
+    result.ok = found.at.ok;
+    result.message = found.at.message;
+    if (!result.ok) return result;
+    result.jacobian = WeightedJacobian(model, found, noise);
+    bool unsuitable = false;
+    for (int i = 0; i < steps->size(); ++i) {
+      // In the record that shows it most: the root of the mean square of what the step does.
+      double effect = 0;
+      for (const RecordJacobian::Record& record : result.jacobian.records())
+        for (std::size_t k = 0; k < record.unknowns.size(); ++k)
+          if (record.unknowns[k] == i)
+            effect = std::max(effect, (*steps)[i] *
+                                          record.columns.col(static_cast<Eigen::Index>(k)).norm() /
+                                          std::sqrt(static_cast<double>(record.columns.rows())));
+      const double wanted =
+          std::clamp((*steps)[i] * kEffect / std::max(effect, 1e-300), kSmallestStep, kLargestStep);
+      unsuitable |= effect < kFaintEffect * kEffect && wanted > kCoarser * (*steps)[i];
+      (*steps)[i] = wanted;
+    }
+    if (!again || !unsuitable) break;
+    found = model.Differentiate(values, horizon, difference, *steps);
+  }
+  result.simulated = std::move(found.at.records);
+  result.residuals = WeightedResiduals(model, values, result.simulated, noise);
+  return result;
+}
+
+FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,
+              const NoiseLevels& noise, const FitOptions& fit, const FitProgress& progress) {
+  const Unknowns& unknowns = model.unknowns();
+  LeastSquaresOptions options;
+  options.samples = 0;
+  for (std::size_t e = 0; e < horizon.size(); ++e) {
+    const Experiment& experiment = unknowns.set().experiments[e];
+    options.samples +=
+        SamplesUntil(experiment, horizon[e]) * static_cast<double>(experiment.channels.size());
+  }
+  RecordProblem problem(model, horizon, noise, progress, fit.steps, options.samples);
+  options.lower.resize(unknowns.size());
+  options.upper.resize(unknowns.size());
+  for (int i = 0; i < unknowns.size(); ++i) {
+    const Unknown& u = unknowns.all()[i];
+    const double at_lower = VariableOf(u, u.lower), at_upper = VariableOf(u, u.upper);
+    options.lower[i] = std::min(at_lower, at_upper);
+    options.upper[i] = std::max(at_lower, at_upper);
+  }
+  options.held.assign(static_cast<std::size_t>(unknowns.size()), false);
+  for (const int i : fit.held) options.held[static_cast<std::size_t>(i)] = true;
+  options.max_iterations = fit.max_iterations > 0 ? fit.max_iterations
+                           : fit.loose            ? kLooseIterations
+                                                  : kMaxIterations;
+  // On the way, what changes the misfit by a small part is not worth an iteration either.
+  const double by_sample = fit.loose ? kLoose : fit.to_noise ? 0 : kOfMisfit;
+  options.small_gain = std::max(kSmallGain, by_sample * options.samples);
+  const LeastSquaresResult found = Minimise(problem.VariablesOf(values), options, &problem);
+
+  FitResult result;
+  result.interrupted = found.end == LeastSquaresResult::End::kStopped || model.Stopping();
+  result.ok = found.end != LeastSquaresResult::End::kFailed;
+  result.at_minimum = found.end == LeastSquaresResult::End::kMinimum;
+  result.message = problem.message();
+  result.cost = found.cost;
+  result.gain_left = found.gain_left;
+  result.iterations = found.iterations;
+  result.values = problem.ValuesOf(found.x);
+  result.jacobian = problem.jacobian();
+  result.steps = problem.steps();
+  return result;
+}
+
+bool Polish(const RecordModel& model, const RecordJacobian& jacobian, const NoiseLevels& noise,
+            Eigen::VectorXd* values) {
+  const Unknowns& unknowns = model.unknowns();
+  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solve(jacobian.Gram());
+  Eigen::VectorXd best = *values;
+  double least = std::numeric_limits<double>::infinity();
+  for (int step = 0; step <= kPolishSteps; ++step) {
+    const RecordModel::Simulated found = model.Simulate({best}, model.WholeHorizon()).front();
+    if (!found.ok) return false;
+    const Eigen::VectorXd residuals = WeightedResiduals(model, best, found.records, noise);
+    const double cost = residuals.squaredNorm();
+    if (cost > least + kPolishNoise) return false;
+    least = std::min(least, cost);
+    *values = best;
+    const Eigen::VectorXd gradient = jacobian.TransposeTimes(residuals);
+    const Eigen::VectorXd move = -solve.solve(gradient);
+    if (-gradient.dot(move) < kPolished) return true;
+    for (int i = 0; i < unknowns.size(); ++i) {
+      const Unknown& u = unknowns.all()[i];
+      best[i] = std::clamp(best[i] + move[i] * u.scale, u.lower, u.upper);
+    }
+  }
+  return false;
+}
+
+/// The cable's parameters that explain little of what is left over, however far they are moved:
+/// while much is, they would only be led astray.
+std::vector<int> Powerless(const RecordModel& model, const Eigen::VectorXd& values,
+                           const Horizon& horizon, const NoiseLevels& noise) {
+  std::vector<int> powerless;
+  Eigen::VectorXd steps = model.SmallSteps();
+  const Linearised found =
+      Linearise(model, values, horizon, noise, RecordModel::Difference::kForward, true, &steps);
+  if (!found.ok) return powerless;
+  const double left = found.residuals.squaredNorm();
+  const Eigen::VectorXd shown = found.jacobian.SquaredNorms();
+  for (int i = 0; i < model.unknowns().size(); ++i)
+    if (model.unknowns().all()[i].kind == Unknown::Kind::kCable && shown[i] < kPower * left)
+      powerless.push_back(i);
+  return powerless;
+}
+
+/// From a point, to the first part of the records.
+FitResult FitFirst(const RecordModel& model, Eigen::VectorXd values, const Horizon& horizon,
+                   const NoiseLevels& noise, const FitProgress& progress) {
+  FitOptions options = kOnTheWay;
+  for (const double periods : kStartPeriods) {
+    const std::optional<Horizon> beginning = model.Beginning(periods);
+    if (!beginning) return Fit(model, values, horizon, noise, options, progress);
+    if (periods == kStartPeriods[0]) {
+      for (int i = 0; i < model.unknowns().size(); ++i)
+        if (model.unknowns().all()[i].kind == Unknown::Kind::kCable) options.held.push_back(i);
+    } else {
+      options.held = Powerless(model, values, *beginning, noise);
+    }
+    const FitResult fit = Fit(model, values, *beginning, noise, options, progress);
+    if (fit.interrupted) return fit;
+    if (fit.ok) values = fit.values;
+  }
+  options.held = Powerless(model, values, horizon, noise);
+  return Fit(model, values, horizon, noise, options, progress);
+}
+
+FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
+                      const NoiseLevels& noise, const FitProgress& progress) {
+  std::vector<Eigen::VectorXd> points = more;
+  points.push_back(model->unknowns().StartValues());
+  // Where a start is unknown, all points look alike before it is fitted.
+  const auto& experiments = model->unknowns().set().experiments;
+  const bool comparable =
+      std::none_of(experiments.begin(), experiments.end(), [](const Experiment& experiment) {
+        return experiment.start.kind == StartCondition::Kind::kUnknown;
+      });
+  if (comparable) {
+    const std::vector<Eigen::VectorXd> around = PointsAround(model->unknowns());
+    points.insert(points.end(), around.begin(), around.end());
+  }
+  const Horizon first = model->PartialHorizon(kParts[0], kFewestSamples);
+  if (progress && !progress("looking for a start")) {
+    FitResult stopped;
+    stopped.interrupted = true;
+    return stopped;
+  }
+  const std::vector<RecordModel::Simulated> all = model->Simulate(points, first);
+  std::vector<std::pair<double, std::size_t>> ranking;
+  std::string why;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    if (!all[p].ok) {
+      why = all[p].message;
+      continue;
+    }
+    const double cost = WeightedResiduals(*model, points[p], all[p].records, noise).squaredNorm();
+    if (std::isfinite(cost)) ranking.push_back({cost, p});
+  }
+  FitResult best;
+  best.message = why;
+  if (ranking.empty()) return best;
+  std::sort(ranking.begin(), ranking.end());
+  for (std::size_t k = 0; k < std::min<std::size_t>(kBest, ranking.size()); ++k) {
+    const FitResult fit = FitFirst(*model, points[ranking[k].second], first, noise, progress);
+    if (fit.interrupted) return fit;
+    if (fit.ok && (!best.ok || fit.cost < best.cost)) best = fit;
+  }
+  for (std::size_t part = 1; part < std::size(kParts) && best.ok; ++part) {
+    const bool last = part + 1 == std::size(kParts);
+    const Horizon horizon =
+        last ? model->WholeHorizon() : model->PartialHorizon(kParts[part], kFewestSamples);
+    if (last) LeaveOutUnseen(best.values, noise, model);
+    FitOptions options = kOnTheWay;
+    if (!comparable) options.held = Powerless(*model, best.values, horizon, noise);
+    best = Fit(*model, best.values, horizon, noise, options, progress);
+    if (best.interrupted) return best;
+  }
+  return best;
+}
+
+}  // namespace cosserat_cable

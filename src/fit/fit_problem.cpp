@@ -1,0 +1,222 @@
+#include "cosserat_cable/fit/fit_problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cosserat_cable/fit/damage.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Mean square of the residuals, in the noise's variance, above which what is left is no noise.
+constexpr double kMuchNoise = 4;
+// Of a record whose start is unknown: what its prediction is begun with, in periods and as a part.
+constexpr double kBeginningPeriods = 2;
+// Runs with finer steps, each followed by a fit.
+constexpr int kRounds = 2;
+
+double RootMeanSquare(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size()))
+                           : 0.0;
+}
+
+}  // namespace
+
+SetNoise NoiseOf(const MeasurementSet& set, const Records& simulated) {
+  SetNoise noise;
+  for (std::size_t e = 0; e < set.experiments.size(); ++e) {
+    const Experiment& experiment = set.experiments[e];
+    const Eigen::MatrixXd usable = UsableSamples(experiment.record);
+    Eigen::VectorXd levels(static_cast<Eigen::Index>(experiment.channels.size()));
+    noise.sources.emplace_back();
+    for (int c = 0; c < static_cast<int>(levels.size()); ++c) {
+      const NoiseLevel level = e < simulated.size()
+                                   ? LevelOf(experiment, c, usable.col(c), simulated[e].col(c))
+                                   : LevelOf(experiment, c, usable.col(c));
+      const bool known = level.source != NoiseLevel::Source::kUnknown;
+      noise.known = noise.known && known;
+      const double sd = known || level.sd > 0
+                            ? level.sd
+                            : NoiseOfSmooth(experiment.record.values.col(c), usable.col(c));
+      levels[c] = std::max(sd, SmallestNoise(experiment, c));
+      noise.sources.back().push_back(level);
+    }
+    noise.levels.push_back(levels);
+  }
+  return noise;
+}
+
+double FitPoint::ValueOf(const std::string& name) const {
+  for (std::size_t i = 0; i < unknowns.size(); ++i)
+    if (unknowns[i].name == name) return values[static_cast<Eigen::Index>(i)];
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+FitProblem::FitProblem(const MeasurementSet& set, const FitProblemOptions& options,
+                       Problems* problems)
+    : options_(options),
+      unknowns_(std::make_unique<Unknowns>(set, options.unknowns, problems)),
+      noise_(options.noise) {
+  if (noise_.empty()) noise_ = NoiseOf(set).levels;
+  if (!problems->empty()) return;
+  model_ = std::make_unique<RecordModel>(*unknowns_);
+  model_->SetStop(options_.stop);
+  for (const int e : options_.held_out) model_->LeaveOut(e);
+}
+
+bool FitProblem::IsHeldOut(std::size_t experiment) const {
+  return model_->IsLeftOut(static_cast<int>(experiment));
+}
+
+void FitProblem::Refine(const FitPoint& at) {
+  NoiseLevels levels = noise_;
+  for (std::size_t e = 0; e < levels.size(); ++e)
+    for (Eigen::Index c = 0; c < levels[e].size(); ++c)
+      levels[e][c] *= std::max(1.0, RootMeanSquare(at.residuals[e].col(c)));
+  model_->Refine(at.values, levels);
+}
+
+FitPoint FitProblem::PointOf(const FitResult& fit) {
+  FitPoint point;
+  // At a minimum, the last derivatives are those there.
+  if (fit.at_minimum) {
+    RecordModel::Simulated found = model_->Simulate({fit.values}, model_->WholeHorizon()).front();
+    if (found.ok) point = PointOf(fit.values, std::move(found.records), fit.jacobian);
+  }
+  if (!point.ok) point = At(fit.values);
+  point.ok = point.ok && fit.ok;
+  point.interrupted = fit.interrupted;
+  point.at_minimum = fit.at_minimum;
+  point.iterations = fit.iterations;
+  if (!fit.ok) point.message = fit.message;
+  return point;
+}
+
+FitPoint FitProblem::At(const Eigen::VectorXd& values) {
+  Eigen::VectorXd steps = model_->SmallSteps();
+  Linearised found = Linearise(*model_, values, model_->WholeHorizon(), noise_,
+                               RecordModel::Difference::kForward, true, &steps);
+  if (found.ok) return PointOf(values, std::move(found.simulated), std::move(found.jacobian));
+  FitPoint none;
+  none.message = found.message;
+  return none;
+}
+
+FitPoint FitProblem::PointOf(const Eigen::VectorXd& values, Records simulated,
+                             RecordJacobian jacobian) const {
+  FitPoint point;
+  point.ok = true;
+  point.unknowns = unknowns_->all();
+  point.values = values;
+  point.simulated = std::move(simulated);
+  point.jacobian = std::move(jacobian);
+  const auto& experiments = unknowns_->set().experiments;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    point.residuals.push_back(experiments[e].record.values - point.simulated[e]);
+    const Eigen::MatrixXd weights = SampleWeights(*model_, e, noise_);
+    if (IsHeldOut(e)) {
+      for (Eigen::Index c = 0; c < weights.cols(); ++c) point.residuals[e].col(c) /= noise_[e][c];
+      continue;
+    }
+    point.residuals[e].array() *= weights.array();
+    point.cost += point.residuals[e].squaredNorm();
+    point.samples += static_cast<double>((weights.array() > 0).count());
+  }
+  return point;
+}
+
+FitPoint FitProblem::FitFromAfar() {
+  const FitResult start = cosserat_cable::FitFromAfar(model_.get(), {}, noise_, options_.progress);
+  if (!start.ok || start.interrupted) {
+    FitPoint none;
+    none.interrupted = start.interrupted || model_->Stopping();
+    none.message = start.message;
+    return none;
+  }
+  FitPoint point = At(start.values);
+  for (int round = 0; round < kRounds && point.ok && !point.interrupted; ++round) {
+    Refine(point);
+    const FitPoint next = FitFrom(point);
+    if (!next.ok) {
+      point.interrupted = next.interrupted;
+      break;
+    }
+    point = next;
+  }
+  return point;
+}
+
+Eigen::VectorXd FitProblem::StartFrom(const FitPoint& start,
+                                      const std::map<std::string, double>& also) const {
+  Eigen::VectorXd values = unknowns_->StartValues();
+  for (int i = 0; i < unknowns_->size(); ++i) {
+    const Unknown& u = unknowns_->all()[static_cast<std::size_t>(i)];
+    const double there = start.ValueOf(u.name);
+    if (std::isfinite(there)) values[i] = there;
+    if (const auto one = also.find(u.name); one != also.end()) values[i] = one->second;
+    values[i] = std::clamp(values[i], u.lower, u.upper);
+  }
+  return values;
+}
+
+FitPoint FitProblem::FitFrom(const FitPoint& start, const std::map<std::string, double>& also) {
+  FitOptions options;
+  const double samples = std::max(1.0, start.samples);
+  options.to_noise = start.cost < kMuchNoise * samples;
+  options.max_iterations = options_.max_iterations;
+  for (const std::string& name : options_.held)
+    if (const int i = unknowns_->Find(name); i >= 0) options.held.push_back(i);
+  const FitResult fit = Fit(*model_, StartFrom(start, also), model_->WholeHorizon(), noise_,
+                            options, options_.progress);
+  if (!fit.ok) {
+    FitPoint none;
+    none.interrupted = fit.interrupted;
+    none.message = fit.message;
+    return none;
+  }
+  return PointOf(fit);
+}
+
+Eigen::MatrixXd FitProblem::Predict(const FitPoint& at, int experiment) const {
+  const auto e = static_cast<std::size_t>(experiment);
+  const Experiment& of = unknowns_->set().experiments[e];
+  MeasurementSet alone = unknowns_->set();
+  alone.experiments = {of};
+  Problems problems;
+  FitProblemOptions options = options_;
+  options.held_out.clear();
+  options.noise = {noise_[e]};
+  FitProblem problem(alone, options, &problems);
+  if (!problems.empty()) return {};
+  problem.model_->TakeStepsFrom(*model_, experiment);
+  Eigen::VectorXd values = problem.StartFrom(at, {});
+  FitOptions fit;
+  bool own = false;
+  for (int i = 0; i < problem.unknowns_->size(); ++i) {
+    if (problem.unknowns_->all()[static_cast<std::size_t>(i)].kind == Unknown::Kind::kCable)
+      fit.held.push_back(i);
+    else
+      own = true;
+  }
+  Eigen::Index from = 0;
+  if (own) {
+    const std::optional<Horizon> periods = problem.model_->Beginning(kBeginningPeriods);
+    const Horizon beginning = periods ? *periods : problem.model_->PartialHorizon(0.1, 2);
+    const FitResult start =
+        Fit(*problem.model_, values, beginning, problem.noise_, fit, options_.progress);
+    if (!start.ok) return {};
+    values = start.values;
+    const std::vector<double>& t = of.record.t;
+    from = std::upper_bound(t.begin(), t.end(), beginning[0]) - t.begin();
+  }
+  const RecordModel::Simulated found =
+      problem.model_->Simulate({values}, problem.model_->WholeHorizon()).front();
+  if (!found.ok) return {};
+  Eigen::MatrixXd left = of.record.values - found.records[0];
+  left.array() *= problem.model_->usable()[0].array();
+  for (Eigen::Index c = 0; c < left.cols(); ++c) left.col(c) /= noise_[e][c];
+  return left.bottomRows(left.rows() - from);
+}
+
+}  // namespace cosserat_cable
