@@ -22,6 +22,8 @@ BELOW = {
     'fit': {'measurement', 'causes', 'cable', 'rod', 'contact', 'input', 'math'},
     'identification': {'fit', 'console', 'measurement', 'causes', 'cable', 'rod', 'contact', 'input',
                        'math'},
+    'diagnosis': {'identification', 'fit', 'console', 'measurement', 'causes', 'cable', 'rod',
+                  'contact', 'input', 'math'},
     'vehicle': {'math', 'input', 'contact'},
 }
 # These may include every room, and ROS.

@@ -1,0 +1,113 @@
+#include "cosserat_cable/diagnosis/diagnose_run.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "cosserat_cable/console/interrupt.h"
+#include "cosserat_cable/console/output_file.h"
+#include "cosserat_cable/console/progress.h"
+#include "cosserat_cable/console/run_program.h"
+#include "cosserat_cable/diagnosis/diagnosis.h"
+#include "verdict_json.h"
+
+namespace cosserat_cable {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The whole set, with what was found filled in: a file beside the verdict, its records below.
+void WriteExtendedSet(const MeasurementSet& extended, const fs::path& folder) {
+  MeasurementSet set = extended;
+  const auto below = [](std::string* file) {
+    if (!file->empty()) *file = "records/" + fs::path(*file).filename().string();
+  };
+  for (Experiment& experiment : set.experiments) {
+    experiment.record.file = experiment.name + ".csv";
+    below(&experiment.record.file);
+    below(&experiment.load.file);
+    for (auto* motion : {&experiment.a.motion, &experiment.b.motion})
+      if (*motion) below(&(*motion)->file);
+  }
+  WriteMeasurementSet(set, folder.string());
+  fs::rename(folder / "measurement.yaml", folder / kExtendedMeasurement);
+}
+
+}  // namespace
+
+ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
+  Problems problems, warnings;
+  const MeasurementSet set = LoadMeasurementSet(options.set, &problems);
+  if (problems.empty()) CheckPlausibility(set, &problems, &warnings);
+  const auto refuse = [&] {
+    problems.SortByLine();
+    std::cerr << problems.ToString();
+    return kExitBadInput;
+  };
+  if (!problems.empty()) return refuse();
+  const fs::path folder(options.output);
+  std::error_code error;
+  if (fs::exists(folder / "measurement.yaml", error)) {
+    std::cerr << options.output << ": got the folder of a measurement set, expected another one "
+              << "for the output\n";
+    return kExitBadInput;
+  }
+  fs::create_directories(folder / "fit", error);
+  if (error) {
+    std::cerr << options.output << ": " << error.message() << "\n";
+    return kExitFileTrouble;
+  }
+
+  CatchInterrupts();
+  DiagnosisOptions diagnosis_options;
+  diagnosis_options.time_limit = options.time_limit;
+  diagnosis_options.advise = options.advise;
+  diagnosis_options.stop = Interrupted;
+  Diagnosis diagnosis;
+  {
+    Progress progress(100, "%");
+    diagnosis_options.progress = [&](const std::string& what, double part) {
+      progress.Update(100 * part, what);
+      return !Interrupted();
+    };
+    diagnosis = Diagnose(set, diagnosis_options, &problems);
+  }
+  if (!problems.empty()) return refuse();
+  if (!diagnosis.ok) {
+    std::cerr << (diagnosis.interrupted
+                      ? "interrupted before anything was found: nothing was written"
+                      : diagnosis.message)
+              << "\n";
+    return diagnosis.interrupted ? kExitInterrupted : kExitFailed;
+  }
+  for (const Problem& warning : warnings.all()) diagnosis.warnings.push_back(warning.ToString());
+  const std::string verdict = VerdictJson(set, diagnosis).dump(2) + "\n";
+  try {
+    for (const char* stale : {kExtendedCable, kExtendedMeasurement}) fs::remove(folder / stale);
+    for (std::size_t e = 0; e < set.experiments.size(); ++e)
+      WriteWhole((folder / "fit" / (set.experiments[e].name + ".csv")).string(),
+                 FitCsv(set.experiments[e], diagnosis.records[e]));
+    if (diagnosis.verdict == Verdict::kNamed) {
+      WriteWhole((folder / kExtendedCable).string(), ExtendedCableText(set, diagnosis));
+      WriteExtendedSet(diagnosis.extended_set, folder);
+    }
+    WriteWhole((folder / "verdict.json").string(), verdict);
+    if (!options.json.empty()) WriteWhole(options.json, verdict);
+  } catch (const std::exception& failure) {
+    std::cerr << failure.what() << "\n";
+    return kExitFileTrouble;
+  }
+  std::cout << VerdictTable(diagnosis);
+  for (const std::string& warning : diagnosis.warnings) std::cerr << "warning: " << warning << "\n";
+  std::printf("diagnosed in %.1f s\n", diagnosis.seconds);
+  if (diagnosis.interrupted) {
+    std::cerr << options.output << ": interrupted: what was found so far was written\n";
+    return kExitInterrupted;
+  }
+  if (!options.report) return kExitDone;
+  if (RunProgram({options.report_program, options.output})) return kExitDone;
+  std::cerr << options.output << "/report.html: could not be written; the numbers are there\n";
+  return kExitFileTrouble;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,74 @@
+#include "cosserat_cable/diagnosis/diagnosis.h"
+
+#include <algorithm>
+
+#include "diagnosis_work.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Causes that are fitted alone, and together with the best.
+constexpr int kMostCandidates = 10, kMostPairs = 3, kAll = 19;
+// How many single causes pairs are begun from.
+constexpr int kPairsFrom = 2;
+// What a second cause must promise, in noise variances, beside a first that leaves just noise.
+constexpr double kWorthASecond = 40;
+
+/// The single causes that fit best, by their places among the models.
+std::vector<int> BestSingles(const DiagnosisWork& work, int models, int most) {
+  std::vector<int> singles;
+  for (int i = 1; i < models; ++i)
+    if (work.model(i).trials.size() == 1) singles.push_back(i);
+  std::sort(singles.begin(), singles.end(),
+            [&](int a, int b) { return work.model(a).point.cost < work.model(b).point.cost; });
+  if (static_cast<int>(singles.size()) > most) singles.resize(static_cast<std::size_t>(most));
+  return singles;
+}
+
+}  // namespace
+
+const char* ToString(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kNone:
+      return "none";
+    case Verdict::kNamed:
+      return "named";
+    case Verdict::kAmbiguous:
+      return "ambiguous";
+    case Verdict::kUnexplained:
+      return "unexplained";
+  }
+  return "";
+}
+
+Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, Problems* problems) {
+  DiagnosisWork work(set, options);
+  if (!work.FitBaseline(problems)) return work.Failed();
+  const std::vector<Screened> screened = work.ScreenAround(work.baseline(), "screening");
+  work.FitCandidates(screened, nullptr, kMostCandidates, 0.25);
+  work.FitFromSimpler();
+  if (work.Judged().verdict == Verdict::kUnexplained) {
+    // Far from the plain model its derivatives promise little of what is right.
+    work.FitCandidates(screened, nullptr, kAll, 0.4);
+    work.FitFromSimpler();
+  }
+  work.RefineBest();
+  const Judgement first = work.Judged();
+  if (work.Stopping()) return work.Report();
+  if (first.verdict == Verdict::kUnexplained) {
+    for (const int single : BestSingles(work, static_cast<int>(first.rejected.size()), kPairsFrom))
+      work.FitCandidates(work.ScreenAround(work.model(single), "screening of pairs"),
+                         &work.model(single), kMostPairs, 0.6);
+    work.FitParts(work.Judged());
+    work.RefineBest();
+  } else if (first.verdict == Verdict::kNamed) {
+    std::vector<Screened> second = work.ScreenAround(work.model(first.best), "screening of pairs");
+    second.erase(std::remove_if(second.begin(), second.end(),
+                                [](const Screened& one) { return one.drop < kWorthASecond; }),
+                 second.end());
+    work.FitCandidates(second, &work.model(first.best), kMostPairs, 0.6);
+  }
+  return work.Report();
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,320 @@
+#include "diagnosis_work.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "held_out.h"
+#include "trial_obstacles.h"
+
+namespace cosserat_cable {
+namespace {
+
+// Iterations of a candidate's fit; what has not come near by then is not the answer.
+constexpr int kIterations = 20;
+// Part of a cause's best promise above which another start of it is fitted too, and how many.
+constexpr double kAsPromising = 0.6;
+constexpr int kStarts = 2;
+// A promise, in noise variances, that chance makes among all hypotheses.
+constexpr double kChance = 10;
+// A noise level that the baseline shows to be this part smaller than the record alone did.
+constexpr double kNoiseSettled = 0.03;
+// How many of the best models are simulated more finely; and the misfit, in times the noise's
+// variance, that takes no precision to see.
+constexpr int kRefined = 3;
+constexpr double kMuchLeft = 9;
+
+}  // namespace
+
+std::vector<std::string> FittedTrial::causes() const {
+  std::vector<std::string> names;
+  for (const Trial& trial : trials) names.push_back(trial.cause);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+int FittedTrial::parameters() const {
+  int count = 0;
+  for (const Trial& trial : trials) count += static_cast<int>(trial.FreePaths().size());
+  return count;
+}
+
+DiagnosisWork::DiagnosisWork(const MeasurementSet& set, const DiagnosisOptions& options)
+    : set_(set), options_(options), noise_(NoiseOf(set)) {}
+
+bool DiagnosisWork::Stopping() const { return stopped_ || (options_.stop && options_.stop()); }
+
+bool DiagnosisWork::Tell(const std::string& what, double part) {
+  farthest_ = std::max(farthest_, part);
+  if (options_.progress && !options_.progress(what, farthest_)) stopped_ = true;
+  return !Stopping();
+}
+
+void DiagnosisWork::Charge(const std::string& stage, const SimulationCount& count) {
+  const Clock::time_point now = Clock::now();
+  auto& stages = diagnosis_.stages;
+  auto place = std::find_if(stages.begin(), stages.end(),
+                            [&](const DiagnosisStage& one) { return one.name == stage; });
+  if (place == stages.end()) place = stages.insert(place, {stage, 0, {}});
+  place->seconds += std::chrono::duration<double>(now - charged_at_).count();
+  place->count += count;
+  charged_at_ = now;
+}
+
+FitProblemOptions DiagnosisWork::ProblemOptions() const {
+  FitProblemOptions options;
+  options.unknowns.end_damping = false;
+  options.noise = noise_.levels;
+  options.stop = [this] { return Stopping() || OutOfTime(); };
+  return options;
+}
+
+bool DiagnosisWork::FitBaseline(Problems* problems) {
+  auto plain = std::make_unique<FittedTrial>();
+  plain->set = set_;
+  FitProblemOptions options = ProblemOptions();
+  options.progress = [this](const std::string& what) { return Tell("plain model: " + what, 0.05); };
+  plain->problem = std::make_unique<FitProblem>(set_, options, problems);
+  if (!problems->empty()) return false;
+  if (plain->problem->unknowns().size() == 0) {
+    diagnosis_.message = "the set names nothing to be identified";
+    return false;
+  }
+  plain->point = plain->problem->FitFromAfar();
+  Charge("baseline", plain->problem->count());
+  if (!plain->point.ok) {
+    diagnosis_.interrupted = Stopping();
+    diagnosis_.message = "the plain model could not be fitted: " + plain->point.message;
+    return false;
+  }
+  // What the model explains no longer hides the noise.
+  const SetNoise better = NoiseOf(set_, plain->point.simulated);
+  bool changed = false;
+  for (std::size_t e = 0; e < better.levels.size(); ++e)
+    changed = changed || ((noise_.levels[e] - better.levels[e]).array().abs() >
+                          kNoiseSettled * noise_.levels[e].array())
+                             .any();
+  noise_ = better;
+  if (changed) {
+    options.noise = noise_.levels;
+    auto again = std::make_unique<FitProblem>(set_, options, problems);
+    again->ShareSteps(*plain->problem);
+    FitPoint point = again->FitFrom(plain->point);
+    if (point.ok) {
+      plain->problem = std::move(again);
+      plain->point = std::move(point);
+    }
+  }
+  scales_ = FindMotionScales(*plain->problem, plain->point);
+  models_.push_back(std::move(plain));
+  FindCorrelations();
+  Charge("baseline");
+  return true;
+}
+
+std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
+                                                  const std::string& stage) {
+  if (!Tell("screening the causes", 0.2)) return {};
+  std::vector<Trial> trials = AllTrials(base.set, scales_);
+  const std::vector<Trial> obstacles = TrialObstacles(*base.problem, base.point);
+  trials.insert(trials.end(), obstacles.begin(), obstacles.end());
+  const std::vector<std::string> there = base.causes();
+  trials.erase(std::remove_if(trials.begin(), trials.end(),
+                              [&](const Trial& trial) {
+                                return std::count(there.begin(), there.end(), trial.cause) > 0;
+                              }),
+               trials.end());
+  const SimulationCount before = base.problem->count();
+  std::vector<Screened> screened = Screen(*base.problem, base.point, std::move(trials));
+  if (base.trials.empty())
+    for (const Screened& one : screened)
+      promises_[one.trial.cause] = std::max(promises_[one.trial.cause], one.drop);
+  Charge(stage, base.problem->count() - before);
+  return screened;
+}
+
+std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& trials,
+                                                   const FittedTrial& from) {
+  auto fitted = std::make_unique<FittedTrial>();
+  fitted->trials = trials;
+  fitted->set = WithTrials(set_, trials);
+  FitProblemOptions options = ProblemOptions();
+  options.max_iterations = kIterations;
+  options.progress = [this](const std::string&) { return !Stopping(); };
+  Problems problems;
+  fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
+  if (!problems.empty()) return nullptr;
+  fitted->problem->ShareSteps(*from.problem);
+  fitted->point = fitted->problem->FitFrom(from.point);
+  return fitted;
+}
+
+/// Whether a cause, beside others, leaves nothing but noise already: no other start does better.
+bool DiagnosisWork::IsExplained(const std::string& name, const FittedTrial* beside) const {
+  std::vector<std::string> causes = beside ? beside->causes() : std::vector<std::string>();
+  causes.push_back(name);
+  std::sort(causes.begin(), causes.end());
+  return std::any_of(models_.begin(), models_.end(), [&](const auto& one) {
+    return one->causes() == causes && AdequacyOf(one->point, noise_).adequate;
+  });
+}
+
+void DiagnosisWork::Keep(std::unique_ptr<FittedTrial> model) {
+  const std::vector<std::string> causes = model->causes();
+  for (auto& one : models_) {
+    if (one->causes() != causes) continue;
+    if (model->point.cost < one->point.cost) one = std::move(model);
+    return;
+  }
+  models_.push_back(std::move(model));
+}
+
+void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside,
+                                  int most, double part) {
+  const FittedTrial& from = beside ? *beside : baseline();
+  const std::string stage = beside ? "pairs" : "candidates";
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const Screened*>> by_cause;
+  for (const Screened& one : screened) {
+    if (one.drop < kChance) continue;
+    std::vector<const Screened*>& of = by_cause[one.trial.cause];
+    if (of.empty()) order.push_back(one.trial.cause);
+    const std::size_t starts = beside ? 1 : kStarts;
+    if (of.size() < starts && (of.empty() || one.drop > kAsPromising * of.front()->drop))
+      of.push_back(&one);
+  }
+  // What another one contains is held against it.
+  std::vector<std::string> chosen(
+      order.begin(),
+      order.begin() + std::min<std::ptrdiff_t>(most, static_cast<std::ptrdiff_t>(order.size())));
+  for (const std::string& name : std::vector<std::string>(chosen))
+    for (const std::string& simpler : FindCause(name)->contains)
+      if (by_cause.count(simpler) > 0 &&
+          std::find(chosen.begin(), chosen.end(), simpler) == chosen.end())
+        chosen.push_back(simpler);
+  double done = 0;
+  for (const std::string& name : chosen) {
+    if (!beside && !tried_.insert(name).second) continue;
+    for (const Screened* one : by_cause[name]) {
+      if (one != by_cause[name].front() && IsExplained(name, beside)) break;
+      if (OutOfTime() || !Tell((beside ? "together with " : "trying ") + name,
+                               part + 0.3 * done / static_cast<double>(chosen.size())))
+        return;
+      std::vector<Trial> trials = beside ? beside->trials : std::vector<Trial>();
+      trials.push_back(one->trial);
+      std::unique_ptr<FittedTrial> fitted = FitOne(trials, from);
+      if (!fitted) continue;
+      Charge(stage, fitted->problem->count());
+      if (fitted->point.ok && !fitted->point.interrupted)
+        Keep(std::move(fitted));
+      else if (!beside)
+        failures_[name] = fitted->point.message;
+    }
+    ++done;
+  }
+  FindCorrelations();
+}
+
+void DiagnosisWork::FitFromSimpler() {
+  for (const Cause& cause : Causes()) {
+    if (cause.from_simpler.empty() || IsExplained(cause.name, nullptr)) continue;
+    if (begun_from_simpler_.count(cause.name) > 0) continue;
+    const auto simpler = std::find_if(models_.begin(), models_.end(), [&](const auto& one) {
+      return one->causes() == std::vector<std::string>{cause.contains.front()};
+    });
+    if (simpler == models_.end() || AdequacyOf((*simpler)->point, noise_).adequate) continue;
+    if (OutOfTime() || !Tell("beyond " + cause.contains.front() + ": " + cause.name, 0.55)) return;
+    begun_from_simpler_.insert(cause.name);
+    const FittedTrial& from = **simpler;
+    scales_.simpler.clear();
+    for (const char* axis : {"a.bending", "b.bending", "a.torsion", "b.torsion"}) {
+      const double stiffness =
+          from.point.ValueOf(std::string("extensions.clamp_compliance.") + axis);
+      if (stiffness > 0) scales_.simpler[axis] = stiffness;
+    }
+    FitProblem& plain = *models_.front()->problem;
+    const FitPoint there = plain.At(plain.StartFrom(from.point, {}));
+    if (!there.ok) continue;
+    const std::vector<Screened> starts = Screen(plain, there, TrialsFromSimpler(cause, scales_));
+    int tried = 0;
+    for (const Screened& start : starts) {
+      if (tried++ == kStarts || OutOfTime() || IsExplained(cause.name, nullptr)) break;
+      std::unique_ptr<FittedTrial> fitted = FitOne({start.trial}, from);
+      if (!fitted) continue;
+      Charge("candidates", fitted->problem->count());
+      if (fitted->point.ok && !fitted->point.interrupted) Keep(std::move(fitted));
+    }
+  }
+  FindCorrelations();
+}
+
+void DiagnosisWork::FitParts(const Judgement& judgement) {
+  const FittedTrial& whole = model(judgement.best);
+  if (whole.trials.size() < 2) return;
+  const std::vector<Trial> trials = whole.trials;
+  for (const Trial& trial : trials) {
+    const bool fitted = std::any_of(models_.begin(), models_.end(), [&](const auto& one) {
+      return one->causes() == std::vector<std::string>{trial.cause};
+    });
+    if (fitted || OutOfTime() || !Tell("without the others: " + trial.cause, 0.7)) continue;
+    // From where it stands among the others.
+    std::unique_ptr<FittedTrial> alone = FitOne({trial}, model(judgement.best));
+    if (!alone) continue;
+    Charge("removal", alone->problem->count());
+    if (alone->point.ok && !alone->point.interrupted) Keep(std::move(alone));
+  }
+  FindCorrelations();
+}
+
+void DiagnosisWork::RefineBest() {
+  std::vector<FittedTrial*> order;
+  for (auto& model : models_) order.push_back(model.get());
+  std::sort(order.begin(), order.end(), [](const FittedTrial* a, const FittedTrial* b) {
+    return a->point.cost < b->point.cost;
+  });
+  int refined = 0;
+  for (FittedTrial* model : order) {
+    if (refined++ == kRefined || OutOfTime() || !Tell("finer steps", 0.75)) break;
+    if (model->trials.empty() || model->point.cost > kMuchLeft * model->point.samples) continue;
+    const SimulationCount before = model->problem->count();
+    model->problem->Refine(model->point);
+    FitPoint point = model->problem->FitFrom(model->point);
+    Charge("finer steps", model->problem->count() - before);
+    if (point.ok && !point.interrupted) model->point = std::move(point);
+  }
+  FindCorrelations();
+}
+
+/// Of the residuals of the best model: what it leaves is nearest to noise.
+void DiagnosisWork::FindCorrelations() {
+  const auto best =
+      std::min_element(models_.begin(), models_.end(),
+                       [](const auto& a, const auto& b) { return a->point.cost < b->point.cost; });
+  correlations_ = CorrelationsOf((*best)->point);
+}
+
+Difference DiagnosisWork::DifferenceBetween(int worse, int better) const {
+  return DifferenceOf(model(worse).point.residuals, model(better).point.residuals, correlations_);
+}
+
+Judgement DiagnosisWork::Judged() const {
+  std::vector<Contender> contenders;
+  for (const auto& model : models_)
+    contenders.push_back({model->causes(), model->parameters(), AdequacyOf(model->point, noise_)});
+  std::map<int, Records> predicted;
+  const auto predictions = [&](int i) -> const Records& {
+    if (!predicted.count(i)) predicted[i] = LinearisedHeldOut(model(i).point);
+    return predicted[i];
+  };
+  return Judge(
+      contenders, [this](int worse, int better) { return DifferenceBetween(worse, better); },
+      [&](int worse, int better) {
+        return DifferenceOf(predictions(worse), predictions(better), correlations_);
+      });
+}
+
+Diagnosis DiagnosisWork::Failed() {
+  diagnosis_.seconds = Seconds();
+  return diagnosis_;
+}
+
+}  // namespace cosserat_cable

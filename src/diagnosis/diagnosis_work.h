@@ -1,0 +1,94 @@
+// The stages of a diagnosis, and what each leaves to the next.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "cosserat_cable/diagnosis/diagnosis.h"
+#include "goodness.h"
+#include "screening.h"
+#include "trial.h"
+#include "verdict.h"
+
+namespace cosserat_cable {
+
+/// A model with one cause or several, fitted.
+struct FittedTrial {
+  std::vector<Trial> trials;
+  MeasurementSet set;
+  std::unique_ptr<FitProblem> problem;
+  FitPoint point;
+
+  std::vector<std::string> causes() const;
+  int parameters() const;
+};
+
+class DiagnosisWork {
+ public:
+  DiagnosisWork(const MeasurementSet& set, const DiagnosisOptions& options);
+  DiagnosisWork(const DiagnosisWork&) = delete;
+
+  /// Mistakes of the set go to `problems`. False: there is no baseline, and `message` says why.
+  bool FitBaseline(Problems* problems);
+  /// Orders the hypotheses by what they promise, beside the model at `base`.
+  std::vector<Screened> ScreenAround(const FittedTrial& base, const std::string& stage);
+  /// Fits the most promising causes, one at a time; with `beside`, together with its causes.
+  void FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside, int most,
+                     double part);
+  /// Fits causes that contain a simpler one from where that one was found.
+  void FitFromSimpler();
+  /// Fits what the best model is made of by itself, where that is still to do.
+  void FitParts(const Judgement& judgement);
+  /// The steps of the best models made as fine as what is left there asks, and they are fitted
+  /// again.
+  void RefineBest();
+  /// The verdict on what has been fitted so far.
+  Judgement Judged() const;
+  Diagnosis Report();
+
+  const FittedTrial& baseline() const { return *models_.front(); }
+  const FittedTrial& model(int i) const { return *models_[static_cast<std::size_t>(i)]; }
+  bool Stopping() const;
+  bool OutOfTime() const { return Seconds() > options_.time_limit; }
+  Difference DifferenceBetween(int worse, int better) const;
+  const std::string& message() const { return diagnosis_.message; }
+  Diagnosis Failed();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double Seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
+  bool Tell(const std::string& what, double part);
+  void Charge(const std::string& stage, const SimulationCount& count = {});
+  FitProblemOptions ProblemOptions() const;
+  std::unique_ptr<FittedTrial> FitOne(const std::vector<Trial>& trials, const FittedTrial& from);
+  void Keep(std::unique_ptr<FittedTrial> model);
+  bool IsExplained(const std::string& name, const FittedTrial* beside) const;
+  std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
+  void FindCorrelations();
+  void ReportCandidates(const Judgement& judgement);
+  void ReportGain(const Judgement& judgement);
+  void ReportRecords(const Judgement& judgement);
+  void Advise(const Judgement& judgement);
+  void Say(const Judgement& judgement);
+
+  const MeasurementSet& set_;
+  const DiagnosisOptions& options_;
+  SetNoise noise_;
+  MotionScales scales_;
+  std::vector<std::unique_ptr<FittedTrial>> models_;  // the first is the plain one
+  std::map<std::string, double> promises_;            // by cause, in noise variances
+  std::set<std::string> tried_;                       // causes that were fitted alone
+  std::set<std::string> begun_from_simpler_;          // and from a simpler one
+  std::map<std::string, std::string> failures_;       // by cause, why it could not be fitted
+  Correlations correlations_;
+  Diagnosis diagnosis_;
+  std::atomic<bool> stopped_{false};
+  double farthest_ = 0;
+  Clock::time_point begin_ = Clock::now(), charged_at_ = begin_;
+};
+
+}  // namespace cosserat_cable

@@ -1,0 +1,24 @@
+// What each hypothesis could explain of a misfit, to first order: it orders the work, and decides
+// nothing.
+#pragma once
+
+#include <vector>
+
+#include "goodness.h"
+#include "trial.h"
+
+namespace cosserat_cable {
+
+struct Screened {
+  Trial trial;      ///< components that no record shows are gone; sizes as their effect asks
+  double drop = 0;  ///< of the sum of squares, as far as derivatives tell [noise variances]
+};
+
+/// One simulation per component at the point, its size such that it moves the records by half of
+/// their noise, and the score test of the components together: their derivatives less what the
+/// point's own unknowns can do as well. Hypotheses that cannot be simulated or that no record shows
+/// are left out. The most promising come first.
+std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
+                             std::vector<Trial> trials);
+
+}  // namespace cosserat_cable

@@ -1,0 +1,145 @@
+#include "trial.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat_cable/cable/parameters.h"
+
+namespace cosserat_cable {
+namespace {
+
+using Role = HypothesisNumber::Role;
+
+/// Items of a list that the set has already stay; the hypothesis is the next one.
+std::string NextItem(const std::string& path, const CableKeys& keys) {
+  const std::size_t bracket = path.find("[0].");
+  if (bracket == std::string::npos || path.find("tilt[") == bracket - 4) return path;
+  for (int item = 0;; ++item) {
+    const std::string begin = path.substr(0, bracket) + "[" + std::to_string(item) + "].";
+    const std::vector<std::string> known = ParameterPaths(keys);
+    const bool taken = std::any_of(known.begin(), known.end(), [&](const std::string& one) {
+      return one.rfind(begin, 0) == 0;
+    });
+    bool given = taken;
+    if (path.rfind("faults.sensor", 0) == 0)
+      given = keys.faults.value && static_cast<int>(keys.faults.value->sensor.size()) > item;
+    if (!given) return begin + path.substr(bracket + 4);
+  }
+}
+
+double NeutralOf(const std::string& path) {
+  const std::optional<Parameter> parameter = FindParameter(path);
+  const double neutral = parameter && parameter->neutral ? *parameter->neutral : 0;
+  return std::isfinite(neutral) ? neutral : 0;
+}
+
+bool CanBeNegative(const std::string& path) {
+  const std::optional<Parameter> parameter = FindParameter(path);
+  if (!parameter) return false;
+  return parameter->sign == ParameterSign::kSigned || NeutralOf(path) > parameter->lower;
+}
+
+Trial MakeTrial(const std::string& cause, const Hypothesis& hypothesis,
+                const MotionScales& scales) {
+  Trial trial;
+  trial.cause = cause;
+  for (const std::vector<HypothesisNumber>& numbers : hypothesis.components) {
+    TrialComponent component;
+    component.one_sided = true;
+    for (HypothesisNumber number : numbers) {
+      number.times *= scales.Of(number.scale, number.path);
+      number.path = NextItem(number.path, scales.keys);
+      if (number.role == Role::kSize && CanBeNegative(number.path)) component.one_sided = false;
+      component.numbers.push_back(number);
+    }
+    trial.components.push_back(component);
+  }
+  return trial;
+}
+
+}  // namespace
+
+bool TrialComponent::grows() const {
+  return std::any_of(numbers.begin(), numbers.end(), [](const HypothesisNumber& number) {
+    return number.role == Role::kSize || number.role == Role::kInverse;
+  });
+}
+
+std::vector<std::pair<std::string, double>> TrialComponent::At(double part) const {
+  std::vector<std::pair<std::string, double>> values;
+  for (const HypothesisNumber& number : numbers) {
+    double value = number.times;
+    if (number.role == Role::kSize) value = NeutralOf(number.path) + part * size * number.times;
+    if (number.role == Role::kInverse) value = number.times / (part * size);
+    if (const std::optional<Parameter> parameter = FindParameter(number.path))
+      value = std::clamp(value, parameter->lower, parameter->upper);
+    values.push_back({number.path, value});
+  }
+  return values;
+}
+
+std::vector<std::string> Trial::FreePaths() const {
+  std::vector<std::string> paths;
+  for (const TrialComponent& component : components)
+    for (const HypothesisNumber& number : component.numbers)
+      if (number.role != Role::kHeld &&
+          std::find(paths.begin(), paths.end(), number.path) == paths.end())
+        paths.push_back(number.path);
+  return paths;
+}
+
+std::map<std::string, double> Trial::Values() const {
+  std::map<std::string, double> values;
+  for (const TrialComponent& component : components)
+    for (const auto& [path, value] : component.At()) values[path] = value;
+  return values;
+}
+
+std::vector<Trial> TrialsFromSimpler(const Cause& cause, const MotionScales& scales) {
+  std::vector<Trial> trials;
+  for (const Hypothesis& hypothesis : cause.from_simpler) {
+    Trial trial = MakeTrial(cause.name, hypothesis, scales);
+    auto& components = trial.components;
+    components.erase(
+        std::remove_if(components.begin(), components.end(),
+                       [](const TrialComponent& component) {
+                         return std::any_of(
+                             component.numbers.begin(), component.numbers.end(),
+                             [](const HypothesisNumber& number) { return !(number.times > 0); });
+                       }),
+        components.end());
+    if (!components.empty()) trials.push_back(trial);
+  }
+  return trials;
+}
+
+std::vector<Trial> AllTrials(const MeasurementSet& set, const MotionScales& scales) {
+  std::vector<Trial> trials;
+  for (const Cause& cause : Causes())
+    for (const Hypothesis& hypothesis : cause.hypotheses) {
+      const Trial trial = MakeTrial(cause.name, hypothesis, scales);
+      const std::vector<std::string> paths = trial.FreePaths();
+      if (std::none_of(paths.begin(), paths.end(),
+                       [&](const std::string& path) { return GivesParameter(path, set.cable); }))
+        trials.push_back(trial);
+    }
+  return trials;
+}
+
+MeasurementSet WithTrials(const MeasurementSet& set, const std::vector<Trial>& trials) {
+  MeasurementSet extended = set;
+  std::vector<UncertainKey> uncertain;
+  if (set.cable.uncertain.value) {
+    uncertain = *set.cable.uncertain.value;
+  } else {
+    for (const char* name : {"EI", "GJ", "eta_EI", "eta_GJ"}) uncertain.push_back({name, {}});
+  }
+  for (const Trial& trial : trials) {
+    for (const auto& [path, value] : trial.Values()) SetParameter(path, value, &extended.cable);
+    for (const std::string& path : trial.FreePaths()) uncertain.push_back({path, {}});
+  }
+  extended.cable.uncertain.value = uncertain;
+  return extended;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,155 @@
+#include "trial_obstacles.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace cosserat_cable {
+namespace {
+
+using Eigen::Vector3d;
+using Role = HypothesisNumber::Role;
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr double kStep = 2e-3;  // [s] enough to see where the cable comes
+constexpr int kElements = 20;
+constexpr int kStations = 10;   // along the cable
+constexpr int kDirections = 8;  // of planes, around it
+// How far into the motion, from its end to its middle.
+constexpr double kDepths[] = {0.1, 0.4, 0.7};
+constexpr double kPegDepths[] = {0.3, 0.7};
+constexpr int kPegStations[] = {4, 7, 10};
+constexpr double kPegRadius = 0.003;  // [m]
+
+/// Where the cable comes in one experiment: in clamp a's frame, a row per sample, x y z of each
+/// station after the other.
+struct Sweep {
+  Eigen::MatrixXd rows;
+  double diameter = 0;
+
+  Eigen::MatrixX3d Station(int k) const { return rows.middleCols<3>(3 * (k - 1)); }
+};
+
+std::optional<Sweep> SweepOf(const Experiment& experiment, const Specimen& specimen) {
+  Experiment probed = experiment;
+  probed.channels.clear();
+  for (int k = 1; k <= kStations; ++k)
+    for (const int axis : {0, 1, 2}) {
+      Channel channel;
+      channel.column = "position";
+      channel.s = specimen.cable.length * k / kStations;
+      channel.axis = axis;
+      channel.in_frame_a = true;
+      probed.channels.push_back(channel);
+    }
+  probed.record.values =
+      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(experiment.record.t.size()),
+                            static_cast<Eigen::Index>(probed.channels.size()));
+  SimulationOptions options;
+  options.dt = kStep;
+  options.elements = kElements;
+  const SimulatedRecord found = SimulateExperiment(probed, {specimen}, options).front();
+  if (!found.ok || found.values.rows() < 2) return std::nullopt;
+  return Sweep{found.values, specimen.cable.diameter};
+}
+
+double Azimuth(const Vector3d& v) { return std::atan2(v.y(), v.x()); }
+double Elevation(const Vector3d& v) { return std::asin(std::clamp(v.z(), -1.0, 1.0)); }
+
+Trial TrialOf(std::vector<HypothesisNumber> numbers) {
+  Trial trial;
+  trial.cause = "contact";
+  trial.components.emplace_back();
+  trial.components.back().numbers = std::move(numbers);
+  trial.components.back().one_sided = true;
+  return trial;
+}
+
+Trial Plane(const Vector3d& normal, double offset) {
+  const std::string path = "extensions.contact.plane.";
+  return TrialOf({{path + "azimuth", Role::kFree, Azimuth(normal), NumberScale::kOne},
+                  {path + "elevation", Role::kFree, Elevation(normal), NumberScale::kOne},
+                  {path + "offset", Role::kFree, offset, NumberScale::kOne}});
+}
+
+Trial Peg(const Vector3d& centre, const Vector3d& axis) {
+  const std::string path = "extensions.contact.peg.";
+  return TrialOf({{path + "x", Role::kFree, centre.x(), NumberScale::kOne},
+                  {path + "y", Role::kFree, centre.y(), NumberScale::kOne},
+                  {path + "z", Role::kFree, centre.z(), NumberScale::kOne},
+                  {path + "azimuth", Role::kHeld, Azimuth(axis), NumberScale::kOne},
+                  {path + "elevation", Role::kHeld, Elevation(axis), NumberScale::kOne},
+                  {path + "radius", Role::kHeld, kPegRadius, NumberScale::kOne}});
+}
+
+void AddPlanes(const std::vector<Sweep>& sweeps, std::vector<Trial>* trials) {
+  for (int k = 0; k < kDirections; ++k) {
+    const double azimuth = 2 * kPi * k / kDirections;
+    const Vector3d normal(std::cos(azimuth), std::sin(azimuth), 0);
+    std::vector<double> along;
+    for (const Sweep& sweep : sweeps)
+      for (int s = 1; s <= kStations; ++s) {
+        const Eigen::VectorXd one = sweep.Station(s) * normal;
+        for (const double x : one) along.push_back(x - 0.5 * sweep.diameter);
+      }
+    const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
+    std::nth_element(along.begin(), middle, along.end());
+    const double half = *middle, least = *std::min_element(along.begin(), along.end());
+    for (const double depth : kDepths)
+      trials->push_back(Plane(normal, least + depth * (half - least)));
+  }
+}
+
+/// Across the direction in which the station moves most, on both sides of it.
+void AddPegs(const Sweep& sweep, std::vector<Trial>* trials) {
+  for (const int s : kPegStations) {
+    const Eigen::MatrixX3d points = sweep.Station(s);
+    const Vector3d mean = points.colwise().mean();
+    const Eigen::MatrixX3d about = points.rowwise() - mean.transpose();
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(about.transpose() * about);
+    const Vector3d direction = spread.eigenvectors().col(2);
+    const Vector3d before =
+        s > 1 ? Vector3d(sweep.Station(s - 1).colwise().mean()) : Vector3d(Vector3d::Zero());
+    const Vector3d axis = direction.cross(mean - before).normalized();
+    if (!axis.allFinite()) continue;
+    for (const double side : {1.0, -1.0}) {
+      const double farthest = (side * (about * direction)).maxCoeff();
+      for (const double depth : kPegDepths)
+        trials->push_back(
+            Peg(mean + side * (depth * farthest + 0.5 * sweep.diameter + kPegRadius) * direction,
+                axis));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at) {
+  const auto& experiments = problem.unknowns().set().experiments;
+  std::vector<Sweep> sweeps;
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    Problems problems;
+    const Specimen specimen =
+        problem.unknowns().MakeSpecimen(static_cast<int>(e), at.values, &problems);
+    if (!problems.empty()) continue;
+    if (std::optional<Sweep> sweep = SweepOf(experiments[e], specimen))
+      sweeps.push_back(std::move(*sweep));
+  }
+  std::vector<Trial> trials;
+  if (sweeps.empty()) return trials;
+  AddPlanes(sweeps, &trials);
+  const auto widest =
+      std::max_element(sweeps.begin(), sweeps.end(), [](const Sweep& a, const Sweep& b) {
+        const auto motion = [](const Sweep& sweep) {
+          const Eigen::MatrixX3d end = sweep.Station(kStations / 2);
+          return (end.rowwise() - end.colwise().mean()).rowwise().norm().maxCoeff();
+        };
+        return motion(a) < motion(b);
+      });
+  AddPegs(*widest, &trials);
+  return trials;
+}
+
+}  // namespace cosserat_cable

@@ -1,0 +1,175 @@
+#include "verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cosserat_cable/causes/cause.h"
+#include "cosserat_cable/input/number_text.h"
+
+namespace cosserat_cable {
+namespace {
+
+// A difference of sums of squares that one more parameter does not make by chance, among all that
+// were tried; and for each parameter beyond.
+constexpr double kSignificant = 25, kPerParameter = 4;
+// Standard errors of a paired difference.
+constexpr double kBeyondError = 3;
+// A law that is right in kind explains this part of the misfit at least, and leaves so many times
+// the noise's variance at most.
+constexpr double kExplained = 0.97, kMostLeft = 3;
+// What a rival leaves beyond the noise, by what the best leaves, where neither leaves just noise.
+constexpr double kFarWorse = 2.5;
+
+double ShareOf(const Contender& contender, const Contender& plain) {
+  const double misfit = plain.adequacy.excess();
+  return misfit > 0 ? (plain.adequacy.chi2 - contender.adequacy.chi2) / misfit : 0.0;
+}
+
+std::string Times(const Contender& contender) {
+  return FormatRounded(std::sqrt(contender.adequacy.times()), 3) + " times the noise";
+}
+
+// Part of the noise's sum of squares that a law may be wrong by in form.
+constexpr double kOfAdequate = 0.05;
+
+class Court {
+ public:
+  Court(const std::vector<Contender>& contenders, const DifferenceBetween& difference,
+        const DifferenceBetween& heldout)
+      : contenders_(contenders), difference_(difference), heldout_(heldout) {
+    judgement_.rejected.resize(contenders.size());
+  }
+
+  Judgement Hear() {
+    FindBest();
+    const Contender& best = Of(judgement_.best);
+    if (judgement_.best == 0) {
+      judgement_.verdict = best.adequacy.adequate ? Verdict::kNone : Verdict::kUnexplained;
+    } else {
+      judgement_.verdict = Explains(best, Of(0)) ? Verdict::kNamed : Verdict::kUnexplained;
+    }
+    for (int r = 0; r < Count(); ++r)
+      if (r != judgement_.best) Try(r);
+    if (judgement_.verdict == Verdict::kNamed && !judgement_.rivals.empty())
+      judgement_.verdict = Verdict::kAmbiguous;
+    if (judgement_.verdict == Verdict::kUnexplained) judgement_.rivals.clear();
+    return judgement_;
+  }
+
+ private:
+  int Count() const { return static_cast<int>(contenders_.size()); }
+  const Contender& Of(int i) const { return contenders_[static_cast<std::size_t>(i)]; }
+  double Needed(int worse, int better) const {
+    const int more = std::max(1, Of(better).parameters - Of(worse).parameters);
+    return kSignificant + kPerParameter * (more - 1);
+  }
+  bool Beats(int better, int worse) const {
+    return difference_(worse, better).value > Needed(worse, better);
+  }
+  /// Whether a larger model is worth its more: where the simpler one with a cause leaves as good as
+  /// noise, the rest may be what any law is wrong by in form, and it must show in predictions too.
+  bool IsWorthIt(int larger, int simpler) const {
+    if (!Beats(larger, simpler)) return false;
+    if (simpler == 0) return true;
+    if (!(heldout_(simpler, larger).value > 0)) return false;
+    const Adequacy& left = Of(simpler).adequacy;
+    return !left.adequate || difference_(simpler, larger).value > kOfAdequate * left.expected;
+  }
+
+  /// The best fit; then the simplest of what it contains and does not clearly beat.
+  void FindBest() {
+    int best = 0;
+    double most = 0;
+    for (int i = 1; i < Count(); ++i) {
+      if (!Beats(i, 0)) continue;
+      const double gained = difference_(0, i).value - kPerParameter * Of(i).parameters;
+      if (gained <= most) continue;
+      most = gained;
+      best = i;
+    }
+    for (bool simpler = true; simpler;) {
+      simpler = false;
+      for (int p = 0; p < Count() && !simpler; ++p) {
+        if (p == best || !Contains(Of(best).causes, Of(p).causes) || IsWorthIt(best, p)) continue;
+        best = p;
+        simpler = true;
+      }
+    }
+    judgement_.best = best;
+  }
+
+  void Try(int r) {
+    const int b = judgement_.best;
+    const Contender &rival = Of(r), &best = Of(b), &plain = Of(0);
+    std::string& reason = judgement_.rejected[static_cast<std::size_t>(r)];
+    const Difference worse = difference_(r, b);
+    if (r == 0) {
+      // Beaten, or it would be the best; but perhaps in one stretch only.
+      if (rival.adequacy.adequate && worse.value < kBeyondError * worse.se)
+        judgement_.rivals.push_back(r);
+      else
+        reason = "it leaves " + Times(rival);
+      return;
+    }
+    if (!Beats(r, 0)) {
+      reason = "it improves the fit by no more than chance does";
+      return;
+    }
+    if (b != 0 && Contains(rival.causes, best.causes)) {
+      reason = "it contains the simpler answer and improves it by no more than chance does";
+      return;
+    }
+    if (!Explains(rival, plain)) {
+      reason = "it explains " + FormatRounded(100 * std::max(0.0, ShareOf(rival, plain)), 3) +
+               " % of the misfit, and leaves " + Times(rival);
+      return;
+    }
+    const bool clearly = worse.value > Needed(r, b) && worse.value > kBeyondError * worse.se;
+    const bool only_best_is_noise =
+        worse.value > Needed(r, b) && best.adequacy.adequate && !rival.adequacy.adequate;
+    const bool far = !best.adequacy.adequate && worse.value > Needed(r, b) &&
+                     rival.adequacy.excess() > kFarWorse * std::max(0.0, best.adequacy.excess());
+    if (clearly || only_best_is_noise || far) {
+      reason = "it leaves " + Times(rival) + " where the best leaves " + Times(best) +
+               ": worse by " + FormatRounded(worse.value, 3) + " noise variances, standard error " +
+               FormatRounded(worse.se, 2);
+      return;
+    }
+    judgement_.rivals.push_back(r);
+  }
+
+  const std::vector<Contender>& contenders_;
+  const DifferenceBetween& difference_;
+  const DifferenceBetween& heldout_;
+  Judgement judgement_;
+};
+
+}  // namespace
+
+bool Contains(const std::vector<std::string>& larger, const std::vector<std::string>& smaller) {
+  if (larger == smaller) return false;
+  std::vector<std::string> left = larger;
+  for (const std::string& name : smaller) {
+    const auto holds = [&](const std::string& one) {
+      if (one == name) return true;
+      const Cause* cause = FindCause(one);
+      return cause && std::count(cause->contains.begin(), cause->contains.end(), name) > 0;
+    };
+    const auto place = std::find_if(left.begin(), left.end(), holds);
+    if (place == left.end()) return false;
+    left.erase(place);
+  }
+  return true;
+}
+
+bool Explains(const Contender& contender, const Contender& plain) {
+  if (contender.adequacy.adequate) return true;
+  return ShareOf(contender, plain) > kExplained && contender.adequacy.times() < kMostLeft;
+}
+
+Judgement Judge(const std::vector<Contender>& contenders, const DifferenceBetween& difference,
+                const DifferenceBetween& heldout) {
+  return Court(contenders, difference, heldout).Hear();
+}
+
+}  // namespace cosserat_cable
