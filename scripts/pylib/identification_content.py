@@ -1,8 +1,7 @@
 """What a report of cable_identify says, item by item, from identification.json and the records."""
 
-import math
-
 import identification_figures as figures
+from report_numbers import number, percent, unit_of
 from report_page import Bullets, Figure, Heading, Table, Text
 
 NORMAL_95 = figures.NORMAL_95
@@ -10,25 +9,6 @@ NORMAL_95 = figures.NORMAL_95
 MISFIT = 1.3
 NOISE_FROM = {'set': 'given', 'record': 'the record', 'repeats': 'repeated steps',
               'residual': 'the residual: there is no other way'}
-UNITS = {'EI': 'N m^2', 'EI1': 'N m^2', 'EI2': 'N m^2', 'GJ': 'N m^2', 'EA': 'N', 'GA': 'N',
-         'eta_EI': 'N m^2 s', 'eta_EI1': 'N m^2 s', 'eta_EI2': 'N m^2 s', 'eta_GJ': 'N m^2 s',
-         'eta_EA': 'N s', 'eta_GA': 'N s', figures.END_DAMPING: 'N m s/rad', 'length': 'm', 'mass_per_length': 'kg/m'}
-
-
-def number(value, sd=0.0):
-    """As many digits as the standard deviation leaves meaning to."""
-    if value is None:
-        return '-'
-    digits = 4
-    if sd and value and math.isfinite(sd) and math.isfinite(value):
-        digits = min(8, max(2, math.floor(math.log10(abs(value) / sd)) + 2))
-    if value and not 1e-3 <= abs(value) < 1e5:
-        return f'{value:.{digits - 1}e}'
-    return f'{value:#.{digits}g}'.rstrip('.') if sd else f'{value:.{digits}g}'
-
-
-def percent(share):
-    return f'{100 * share:.2g} %' if share < 10 else f'{100 * share:.0f} %'
 
 
 def intervals_of(data):
@@ -48,10 +28,6 @@ def half_width(name, data, intervals):
     value = data['parameters'][name][0]
     low, high = intervals[name]
     return (high - low) / 2 / abs(value) if value else None
-
-
-def unit_of(name, data):
-    return (data.get('units') or {}).get(name, UNITS.get(name, ''))
 
 
 def unexplained(channel):

@@ -1,6 +1,7 @@
 """A report as a list of items, written as one html file that needs no network, and as a PDF.
 
-An item is Heading, Text, Bullets, Table or Figure; both files have the same in the same order."""
+An item is Heading, Text, Bullets, Table, Figure or Folded; both files have the same in the same
+order."""
 
 import base64
 import collections
@@ -12,10 +13,11 @@ import page_figures
 import tool
 
 Heading = collections.namedtuple('Heading', 'text level')
-Text = collections.namedtuple('Text', 'text kind')  # kind: '', 'verdict' or 'warning'
+Text = collections.namedtuple('Text', 'text kind')  # kind: '', 'headline', 'verdict' or 'warning'
 Bullets = collections.namedtuple('Bullets', 'lines kind')
 Table = collections.namedtuple('Table', 'header rows caption')
 Figure = collections.namedtuple('Figure', 'figure caption')
+Folded = collections.namedtuple('Folded', 'summary items')  # shown on a click, in the html
 
 STYLE = """
 body { font: 15px/1.5 sans-serif; color: #222; max-width: 72em; margin: 2em auto; padding: 0 1em; }
@@ -28,6 +30,9 @@ td.number { font-variant-numeric: tabular-nums; white-space: nowrap; }
 img { max-width: 100%; height: auto; }
 figure { margin: 1em 0; } figcaption, caption { color: #555; font-size: 0.9em; text-align: left; }
 .verdict { font-size: 1.1em; background: #eef4fa; padding: 0.7em 1em; border-left: 4px solid #0072B2; }
+.headline { font-size: 1.45em; line-height: 1.35; background: #eef4fa; padding: 0.7em 1em;
+  border-left: 6px solid #0072B2; }
+summary { cursor: pointer; color: #0072B2; }
 .warning { background: #fdf3e7; padding: 0.4em 1em; border-left: 4px solid #D55E00; }
 ul.warning { padding-left: 2em; }
 @media print { figure, table { break-inside: avoid; } }
@@ -73,6 +78,9 @@ def html_item(item):
         kind = f' class="{item.kind}"' if item.kind else ''
         lines = ''.join(f'<li>{html.escape(line)}</li>' for line in item.lines)
         return f'<ul{kind}>{lines}</ul>\n'
+    if isinstance(item, Folded):
+        return (f'<details><summary>{html.escape(item.summary)}</summary>\n'
+                + ''.join(map(html_item, item.items)) + '</details>\n')
     return html_table(item) if isinstance(item, Table) else html_figure(item)
 
 
@@ -103,7 +111,8 @@ class Pages:
         self.y -= LINE * style.get('fontsize', 9) / 9
 
     def paragraph(self, text, first='', **style):
-        for number, line in enumerate(textwrap.wrap(first + text, CHARACTERS) or ['']):
+        characters = int(CHARACTERS * 9 / style.get('fontsize', 9))
+        for number, line in enumerate(textwrap.wrap(first + text, characters) or ['']):
             self.line(('  ' if number and first else '') + line, **style)
         self.y -= LINE / 2
 
@@ -123,19 +132,26 @@ class Pages:
                           family='monospace', weight='normal' if number else 'bold')
         self.y -= LINE
 
-    def figure(self, item):
+    def figure(self, item, heading=''):
         self.flush()
+        above = item.figure.text(0.01, 1.01, heading, va='bottom', fontsize=11, weight='bold',
+                                 parse_math=False)
         caption = item.figure.text(0.01, -0.02, textwrap.fill(item.caption, CHARACTERS), va='top',
                                    fontsize=9, color='0.35', parse_math=False)
         self.pdf.savefig(item.figure, bbox_inches='tight', pad_inches=0.4)
         caption.remove()
+        above.remove()
 
     def add(self, item):
         if isinstance(item, Heading):
             self.y -= LINE
             self.paragraph(item.text, fontsize=18 - 3 * item.level, weight='bold')
         elif isinstance(item, Text):
-            self.paragraph(item.text, fontsize=9)
+            self.paragraph(item.text, fontsize=13 if item.kind == 'headline' else 9)
+        elif isinstance(item, Folded):
+            self.paragraph(item.summary, fontsize=9, weight='bold')
+            for each in item.items:
+                self.add(each)
         elif isinstance(item, Bullets):
             for line in item.lines:
                 self.paragraph(line, first='- ', fontsize=9)
@@ -151,6 +167,11 @@ def write_pdf(path, title, items):
     with tool.whole_file(path) as temporary, PdfPages(
             temporary, metadata={'Title': title, 'CreationDate': None}) as pdf:
         pages = Pages(pdf, plt)
-        for item in items:
-            pages.add(item)
+        for before, item, after in zip([None] + items, items, items[1:] + [None]):
+            if isinstance(item, Heading) and isinstance(after, Figure):
+                continue  # on the figure's page
+            if isinstance(item, Figure) and isinstance(before, Heading):
+                pages.figure(item, before.text)
+            else:
+                pages.add(item)
         pages.flush()
