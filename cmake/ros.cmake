@@ -94,7 +94,7 @@ endforeach()
 
 # The tools in Python find their shared code beside them.
 catkin_install_python(PROGRAMS scripts/travel_to_bag scripts/bag_to_set scripts/plot_apex
-  scripts/plot_modes scripts/identification_report
+  scripts/plot_modes scripts/identification_report scripts/diagnosis_report
   DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 install(DIRECTORY scripts/pylib DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 
