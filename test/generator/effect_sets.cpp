@@ -20,68 +20,6 @@ Vector3d acrossClamp(const Experiment& e, const Vector3d& position) {
   return {x.x(), x.y(), 0.0};
 }
 
-/// What default sizes are measured by.
-EffectScale scaleOf(const std::vector<Experiment>& experiments, const CableData& truth) {
-  constexpr double kNear = 0.25;  // of the amplitude: how far beyond the rest an obstacle is
-  EffectScale scale;
-  scale.cable = truth;
-  scale.shortest = truth.length;
-  scale.frequency = bendingFrequency(truth);
-  scale.torsion = scale.frequency;
-  scale.amplitude = 0.0;
-  Vector3d pull = Vector3d::UnitX();
-  std::vector<Vector3d> places;  // of tips, at rest and where they start
-  for (const Experiment& e : experiments) {
-    scale.shortest = std::min(scale.shortest, e.cable.length);
-    if (e.disc) scale.torsion = std::sqrt(truth.GJ / (e.cable.length * e.disc->inertia));
-    if (e.b) continue;
-    RodDynamics rod = makeRig(e, Resolution());
-    const Eigen::VectorXd rest = restOf(e, &rod), zero = Eigen::VectorXd::Zero(rest.size());
-    const Vector3d tip =
-        rod.pointMotion({0.0, rest, zero, zero}, rod.shape().integralTo(e.cable.length)).position;
-    places.push_back(acrossClamp(e, tip));
-    if (!e.held) continue;
-    places.push_back(acrossClamp(e, *e.held));
-    const double amplitude = (*e.held - tip).norm() / e.cable.length;
-    if (amplitude > scale.amplitude) {
-      scale.amplitude = amplitude;
-      pull = acrossClamp(e, *e.held - tip + e.a.p);
-    }
-  }
-  if (scale.amplitude == 0.0) scale.amplitude = 0.1;  // nothing is let go
-  pull.normalize();
-  double least = 0.0;
-  for (const Vector3d& place : places) least = std::min(least, pull.dot(place));
-  scale.azimuth = std::atan2(pull.y(), pull.x());
-  scale.obstacle = -least + kNear * scale.amplitude * truth.length + 0.5 * truth.diameter;
-  return scale;
-}
-
-/// A clamp that hangs down with a tilt, shaken across: at an angle `roll` from a1 [rad].
-Experiment driven(const std::string& name, const CableData& cable, double tilt, double roll,
-                  const std::vector<ExcitationLine>& lines, double duration, Random* random) {
-  Experiment e;
-  e.name = name;
-  e.kind = "drive";
-  e.cable = cable;
-  e.a.p = anyPlace(random);
-  const double heading = random->uniform(-kPi, kPi);
-  const Vector3d axis(std::sin(tilt) * std::cos(heading), std::sin(tilt) * std::sin(heading),
-                      -std::cos(tilt));
-  e.a.R = frameAlong(axis, random);
-  Excitation drive;
-  drive.start = e.a;
-  drive.direction = e.a.R * Vector3d(std::cos(roll), std::sin(roll), 0.0);
-  drive.axis = e.a.R * Vector3d(std::sin(roll), -std::cos(roll), 0.0);
-  drive.turn = random->uniform(0.5, 1.5) / cable.length * 0.3;
-  drive.lines = lines;
-  drive.duration = duration;
-  e.drive = drive;
-  addPositions(cable.length * random->uniform(0.4, 0.8), &e);
-  e.times = jitteredTimes(duration, random->logUniform(200.0, 500.0), kJitter, random);
-  return e;
-}
-
 CableData at(CableData cable, double length) {
   cable.length = length;
   return cable;
@@ -117,12 +55,48 @@ MeasurementSet started(const std::string& rig, std::uint64_t seed, double snr,
 
 }  // namespace
 
+EffectScale effectScale(const std::vector<Experiment>& experiments, const CableData& truth) {
+  constexpr double kNear = 0.25;  // of the amplitude: how far beyond the rest an obstacle is
+  EffectScale scale;
+  scale.cable = truth;
+  scale.shortest = truth.length;
+  scale.frequency = bendingFrequency(truth);
+  scale.torsion = scale.frequency;
+  scale.amplitude = 0.0;
+  Vector3d pull = Vector3d::UnitX();
+  std::vector<Vector3d> places;  // of tips, at rest and where they start
+  for (const Experiment& e : experiments) {
+    scale.shortest = std::min(scale.shortest, e.cable.length);
+    if (e.disc) scale.torsion = std::sqrt(truth.GJ / (e.cable.length * e.disc->inertia));
+    if (e.b) continue;
+    RodDynamics rod = makeRig(e, Resolution());
+    const Eigen::VectorXd rest = restOf(e, &rod), zero = Eigen::VectorXd::Zero(rest.size());
+    const Vector3d tip =
+        rod.pointMotion({0.0, rest, zero, zero}, rod.shape().integralTo(e.cable.length)).position;
+    places.push_back(acrossClamp(e, tip));
+    if (!e.held) continue;
+    places.push_back(acrossClamp(e, *e.held));
+    const double amplitude = (*e.held - tip).norm() / e.cable.length;
+    if (amplitude > scale.amplitude) {
+      scale.amplitude = amplitude;
+      pull = acrossClamp(e, *e.held - tip + e.a.p);
+    }
+  }
+  if (scale.amplitude == 0.0) scale.amplitude = 0.1;  // nothing is let go
+  pull.normalize();
+  double least = 0.0;
+  for (const Vector3d& place : places) least = std::min(least, pull.dot(place));
+  scale.azimuth = std::atan2(pull.y(), pull.x());
+  scale.obstacle = -least + kNear * scale.amplitude * truth.length + 0.5 * truth.diameter;
+  return scale;
+}
+
 void applyEffects(const EffectPlan& plan, std::vector<Experiment>* experiments,
                   MeasurementSet* set) {
   const bool any = std::any_of(plan.names.begin(), plan.names.end(),
                                [](const std::string& name) { return name != "none"; });
   if (any) {
-    set->effects = chooseEffects(plan.names, plan.size, scaleOf(*experiments, set->truth));
+    set->effects = chooseEffects(plan.names, plan.size, effectScale(*experiments, set->truth));
   }
   for (const std::string& assignment : plan.assignments) setEffectValue(assignment, &set->effects);
   for (Experiment& e : *experiments) {
@@ -178,72 +152,27 @@ MeasurementSet driveSet(std::uint64_t seed, double snr, const EffectPlan& effect
 }
 
 MeasurementSet archSet(std::uint64_t seed, double snr, const EffectPlan& effects) {
-  constexpr double kApart = 0.5;       // of the length
-  constexpr double kArchMode = 36.47;  // w L^2 sqrt(rhoA/EI) of its first mode in plane
   Random random(seed);
   const CableData cable = quietCable(&random);
   MeasurementSet set = started("arch", seed, snr, cable, &random);
-  const double L = cable.length;
-  const double f = kArchMode * std::sqrt(cable.EI / cable.rhoA) / (L * L) / (2.0 * kPi);
   std::vector<Experiment> all;
   for (const bool across : {false, true}) {
-    Experiment e;
-    e.name = across ? "arch_across" : "arch_in_plane";
-    e.kind = "drive";
-    e.cable = cable;
-    e.a.p = anyPlace(&random);
-    e.a.R = frameAlong(-Vector3d::UnitZ(), &random);  // a heavy one that stands topples
-    const double heading = random.uniform(-kPi, kPi);
-    const Vector3d side = e.a.R * Vector3d(std::cos(heading), std::sin(heading), 0.0);
-    const Vector3d axis = -Vector3d::UnitZ().cross(side);
-    FrameMotion b;
-    b.p = e.a.p + kApart * L * side;
-    b.R = Eigen::AngleAxisd(kPi, axis).toRotationMatrix() * e.a.R;
-    e.b = b;
-    Excitation drive;
-    drive.start = e.a;
-    drive.direction = across ? axis : side;
-    drive.axis = axis;
-    const double low = across ? 0.2 : 0.5, high = across ? 0.8 : 1.4;
-    drive.lines = {{0.012 * L, low * f, high * f, 0.0}};
-    drive.duration = 1.2;
-    e.drive = drive;
-    addPositions(0.5 * L, &e);
-    e.channels.erase(e.channels.begin(), e.channels.begin() + 3);  // the end is held
-    e.times = jitteredTimes(drive.duration, 500.0, kJitter, &random);
-    all.push_back(e);
+    all.push_back(arch(across ? "arch_across" : "arch_in_plane", cable, across, 1.2, &random));
+    all.back().times = jitteredTimes(1.2, 500.0, kJitter, &random);
   }
   applyEffects(effects, &all, &set);
   return finished(set, all, &random);
 }
 
 MeasurementSet bendSet(std::uint64_t seed, double snr, const EffectPlan& effects) {
-  constexpr int kQuarter = 12;  // steps
   Random random(seed);
   const CableData cable = quietCable(&random);
   MeasurementSet set = started("bend", seed, snr, cable, &random);
   set.uncertain = {"EI"};
-  const double L = cable.length;
   std::vector<Experiment> all;
   for (int plane = 0; plane < 2; ++plane) {
-    Experiment e;
-    e.name = plane == 0 ? "bend_a1" : "bend_a2";
-    e.kind = "bend";
-    e.cable = cable;
-    e.a.p = anyPlace(&random);
-    e.a.R = frameAlong(-Vector3d::UnitZ(), &random);
-    const double largest = (plane == 0 ? 0.4 : 0.8) * cable.EI / (L * L);
-    const int steps = 8 * kQuarter + 1;
-    e.times = Eigen::VectorXd::LinSpaced(steps, 0.0, steps - 1.0);
-    for (int i = 0; i < steps; ++i) {
-      const int phase = i % (4 * kQuarter);
-      const int up = phase <= kQuarter       ? phase
-                     : phase <= 3 * kQuarter ? 2 * kQuarter - phase
-                                             : phase - 4 * kQuarter;
-      e.tip_forces.push_back(largest * up / kQuarter * e.a.R.col(plane));
-    }
-    addPositions(0.6 * L, &e);
-    all.push_back(e);
+    all.push_back(slowBend(plane == 0 ? "bend_a1" : "bend_a2", cable, plane, plane == 0 ? 0.4 : 0.8,
+                           &random));
   }
   applyEffects(effects, &all, &set);
   return finished(set, all, &random);

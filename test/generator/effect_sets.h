@@ -4,6 +4,9 @@
 
 namespace cosserat_cable::generator {
 
+/// What default sizes are measured by in these experiments.
+EffectScale effectScale(const std::vector<Experiment>& experiments, const CableData& truth);
+
 /// Records to learn from and one to predict, of the same cable with the same effects.
 struct EffectSets {
   MeasurementSet seen, unseen;

@@ -83,6 +83,86 @@ Experiment torsion(const std::string& name, const CableData& cable, double lengt
   return e;
 }
 
+Experiment driven(const std::string& name, const CableData& cable, double tilt, double roll,
+                  const std::vector<ExcitationLine>& lines, double duration, Random* random) {
+  Experiment e;
+  e.name = name;
+  e.kind = "drive";
+  e.cable = cable;
+  e.a.p = anyPlace(random);
+  const double heading = random->uniform(-kPi, kPi);
+  const Vector3d axis(std::sin(tilt) * std::cos(heading), std::sin(tilt) * std::sin(heading),
+                      -std::cos(tilt));
+  e.a.R = frameAlong(axis, random);
+  Excitation drive;
+  drive.start = e.a;
+  drive.direction = e.a.R * Vector3d(std::cos(roll), std::sin(roll), 0.0);
+  drive.axis = e.a.R * Vector3d(std::sin(roll), -std::cos(roll), 0.0);
+  drive.turn = random->uniform(0.5, 1.5) / cable.length * 0.3;
+  drive.lines = lines;
+  drive.duration = duration;
+  e.drive = drive;
+  addPositions(cable.length * random->uniform(0.4, 0.8), &e);
+  e.times = jitteredTimes(duration, random->logUniform(200.0, 500.0), kJitter, random);
+  return e;
+}
+
+Experiment arch(const std::string& name, const CableData& cable, bool across, double duration,
+                Random* random) {
+  constexpr double kApart = 0.5;       // of the length
+  constexpr double kArchMode = 36.47;  // w L^2 sqrt(rhoA/EI) of its first mode in plane
+  const double L = cable.length;
+  const double f = kArchMode * std::sqrt(cable.EI / cable.rhoA) / (L * L) / (2.0 * kPi);
+  Experiment e;
+  e.name = name;
+  e.kind = "drive";
+  e.cable = cable;
+  e.a.p = anyPlace(random);
+  e.a.R = frameAlong(-Vector3d::UnitZ(), random);  // a heavy one that stands topples
+  const double heading = random->uniform(-kPi, kPi);
+  const Vector3d side = e.a.R * Vector3d(std::cos(heading), std::sin(heading), 0.0);
+  const Vector3d axis = -Vector3d::UnitZ().cross(side);
+  FrameMotion b;
+  b.p = e.a.p + kApart * L * side;
+  b.R = Eigen::AngleAxisd(kPi, axis).toRotationMatrix() * e.a.R;
+  e.b = b;
+  Excitation drive;
+  drive.start = e.a;
+  drive.direction = across ? axis : side;
+  drive.axis = axis;
+  const double low = across ? 0.2 : 0.5, high = across ? 0.8 : 1.4;
+  drive.lines = {{0.012 * L, low * f, high * f, 0.0}};
+  drive.duration = duration;
+  e.drive = drive;
+  addPositions(0.5 * L, &e);
+  e.channels.erase(e.channels.begin(), e.channels.begin() + 3);  // the end is held
+  return e;
+}
+
+Experiment slowBend(const std::string& name, const CableData& cable, int plane, double largest,
+                    Random* random) {
+  constexpr int kQuarter = 12;  // steps
+  const double L = cable.length;
+  Experiment e;
+  e.name = name;
+  e.kind = "bend";
+  e.cable = cable;
+  e.a.p = anyPlace(random);
+  e.a.R = frameAlong(-Vector3d::UnitZ(), random);
+  const double force = largest * cable.EI / (L * L);
+  const int steps = 8 * kQuarter + 1;
+  e.times = Eigen::VectorXd::LinSpaced(steps, 0.0, steps - 1.0);
+  for (int i = 0; i < steps; ++i) {
+    const int phase = i % (4 * kQuarter);
+    const int up = phase <= kQuarter       ? phase
+                   : phase <= 3 * kQuarter ? 2 * kQuarter - phase
+                                           : phase - 4 * kQuarter;
+    e.tip_forces.push_back(force * up / kQuarter * e.a.R.col(plane));
+  }
+  addPositions(0.6 * L, &e);
+  return e;
+}
+
 double discMass(double inertia, const CableData& cable, Random* random) {
   const double radius = random->uniform(0.02, 0.05);
   const double EA = 16.0 * cable.EI / (cable.diameter * cable.diameter);

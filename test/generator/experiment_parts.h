@@ -37,6 +37,20 @@ void addVelocity(Experiment* e);
 Experiment torsion(const std::string& name, const CableData& cable, double length, const Disc& disc,
                    bool guided, double duration, Random* random);
 
+/// A clamp that hangs down with a tilt, shaken across: at an angle `roll` from a1 [rad].
+Experiment driven(const std::string& name, const CableData& cable, double tilt, double roll,
+                  const std::vector<ExcitationLine>& lines, double duration, Random* random);
+
+/// An arch that hangs between clamps half a length apart, both tangents vertical; a is swept in its
+/// plane or across it, about the first mode of either. Its `times` are for the caller to fill.
+Experiment arch(const std::string& name, const CableData& cable, bool across, double duration,
+                Random* random);
+
+/// Equilibria of a hanging cable under a force at its tip that goes to and fro twice along a1
+/// (plane 0) or a2 (1), up to `largest` times EI/L^2.
+Experiment slowBend(const std::string& name, const CableData& cable, int plane, double largest,
+                    Random* random);
+
 /// Mass of a disc of this inertia that stretches the cable by 1 % at most.
 double discMass(double inertia, const CableData& cable, Random* random);
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "blind/blind_set.h"
 #include "effect_sets.h"
 #include "effects/kinds.h"
 #include "sample_sets.h"
@@ -20,6 +21,7 @@ constexpr char kUsage[] =
     "usage: rig_generator RIG --output DIR [--seed N] [--snr DB] [--lengths N] [--repeats N]\n"
     "                        [--longest M] [--scatter X] [--start known|unknown]\n"
     "                        [--effect NAME]... [--effect-size X] [--effect-set KEY=VALUE]...\n"
+    "                        [--suite NAME] [--strength X]\n"
     "Writes a measurement set with its truth (truth.json) into DIR.\n"
     "  RIG            random          a random cable: two ring-downs, torsion at 3 or 4 lengths\n"
     "                 ringdowns       one or two short ring-downs of a random cable\n"
@@ -34,6 +36,12 @@ constexpr char kUsage[] =
     "                 drive           one record of a cable whose clamp is shaken\n"
     "                 arch            the same with the other end held, as an arch\n"
     "                 bend            slow bending by a force at the tip, to and fro, two planes\n"
+    "                 blind           data for a diagnosis: the set in DIR/set, a record to "
+    "predict in\n"
+    "                                 DIR/unseen; DIR/truth.json tells what is at work\n"
+    "  --suite NAME   of blind: one of those below\n"
+    "  --strength X   of blind: rms of what recalibration leaves of an effect, in times the noise "
+    "(5)\n"
     "  --seed N       of all that is random (1)\n"
     "  --snr DB       signal to noise, rms (40)\n"
     "  --lengths N    of torsion-series (5)\n"
@@ -68,12 +76,15 @@ int main(int argc, char** argv) {
   std::map<std::string, std::string> options{
       {"--seed", "1"},      {"--snr", "40"},        {"--lengths", "5"},   {"--repeats", "3"},
       {"--longest", "0.5"}, {"--scatter", "0"},     {"--start", "known"}, {"--output", ""},
-      {"--effect", ""},     {"--effect-size", "1"}, {"--effect-set", ""}};
+      {"--effect", ""},     {"--effect-size", "1"}, {"--effect-set", ""}, {"--suite", "single"},
+      {"--strength", "5"}};
   EffectPlan effects;
   if (argc > 1 && std::string(argv[1]) == "--help") {
     std::fputs(kUsage, stdout);
     std::printf("  effects:");
     for (const EffectKind* kind : effectKinds()) std::printf(" %s", kind->name);
+    std::printf("\n  suites:");
+    for (const std::string& suite : blindSuites()) std::printf(" %s", suite.c_str());
     std::printf("\n");
     return 0;
   }
@@ -101,39 +112,50 @@ int main(int argc, char** argv) {
     return wrong("--start: expected known or unknown");
   if (!parse(options["--effect-size"], -100.0, 100.0, &effects.size))
     return wrong("--effect-size: expected -100 to 100");
+  BlindPlan blind;
+  if (!parse(options["--strength"], 0.1, 1000.0, &blind.strength))
+    return wrong("--strength: expected 0.1 to 1000");
   if (options["--output"].empty()) return wrong("no --output given");
 
   const std::string rig = argv[1];
-  const auto number = static_cast<std::uint64_t>(seed);
+  const auto seed_number = static_cast<std::uint64_t>(seed);
   plan.lengths = static_cast<int>(lengths);
   plan.repeats = static_cast<int>(repeats);
   try {
+    if (rig == "blind") {
+      blind.suite = options["--suite"];
+      blind.effect = options["--effect"];
+      blind.seed = seed_number;
+      blind.snr = snr;
+      writeBlind(blindSet(blind), options["--output"]);
+      return 0;
+    }
     MeasurementSet set;
     if (rig == "random") {
-      set = randomSet(number, snr, effects);
+      set = randomSet(seed_number, snr, effects);
     } else if (rig == "ringdowns") {
       RingdownPlan ringdowns;
       ringdowns.unknown_start = options["--start"] == "unknown";
-      set = ringdownSet(number, snr, ringdowns, effects);
+      set = ringdownSet(seed_number, snr, ringdowns, effects);
     } else if (rig == "wire") {
-      set = wireSet(number, snr, effects);
+      set = wireSet(seed_number, snr, effects);
     } else if (rig == "torsion-series") {
-      set = torsionSeries(number, snr, plan, effects);
+      set = torsionSeries(seed_number, snr, plan, effects);
     } else if (rig == "torsion-single") {
       plan.lengths = 1;
-      set = torsionSeries(number, snr, plan, effects);
+      set = torsionSeries(seed_number, snr, plan, effects);
     } else if (rig == "six") {
-      set = sixRecords(number, snr, effects);
+      set = sixRecords(seed_number, snr, effects);
     } else if (rig == "effects") {
-      const EffectSets sets = effectSets(number, snr, effects);
+      const EffectSets sets = effectSets(seed_number, snr, effects);
       writeSet(sets.unseen, options["--output"] + "/unseen");
       set = sets.seen;
     } else if (rig == "drive") {
-      set = driveSet(number, snr, effects);
+      set = driveSet(seed_number, snr, effects);
     } else if (rig == "arch") {
-      set = archSet(number, snr, effects);
+      set = archSet(seed_number, snr, effects);
     } else if (rig == "bend") {
-      set = bendSet(number, snr, effects);
+      set = bendSet(seed_number, snr, effects);
     } else {
       return wrong("unknown rig " + rig);
     }

@@ -11,12 +11,6 @@
 #include "effects/kinds.h"
 
 namespace cosserat_cable::generator {
-namespace {
-
-using Quantity = Channel::Quantity;
-
-// A camera shows a coordinate that moves by less than this part of the others as noise only.
-constexpr double kLeastMotion = 0.1;
 
 std::string number(double value) {
   char text[40];
@@ -30,6 +24,13 @@ std::string number(double value) {
   }
   return result;
 }
+
+namespace {
+
+using Quantity = Channel::Quantity;
+
+// A camera shows a coordinate that moves by less than this part of the others as noise only.
+constexpr double kLeastMotion = 0.1;
 
 std::string list(const Eigen::Ref<const Eigen::VectorXd>& values) {
   std::string text = "[";
@@ -128,20 +129,6 @@ std::string setYaml(const MeasurementSet& set) {
   return out.str();
 }
 
-/// The effects' names, every number of theirs by its path, and the same as a file nests them.
-std::string effectsJson(const MeasurementSet& set) {
-  std::string names, paths;
-  for (const EffectChoice& choice : set.effects) {
-    names += std::string(names.empty() ? "" : ", ") + "\"" + choice.kind->name + "\"";
-    for (const auto& [path, value] : choice.values) {
-      paths += std::string(paths.empty() ? "" : ",") + "\n    \"" + effectPath(*choice.kind, path) +
-               "\": " + number(value);
-    }
-  }
-  return "  \"effects\": [" + names + "],\n  \"effect_parameters\": {" + paths +
-         (paths.empty() ? "" : "\n  ") + "},\n";
-}
-
 std::string truthJson(const MeasurementSet& set) {
   std::ostringstream out;
   out << "{\n  \"format\": 1,\n  \"rig\": \"" << set.rig << "\",\n  \"seed\": " << set.seed
@@ -149,7 +136,7 @@ std::string truthJson(const MeasurementSet& set) {
       << ",\n  \"parameters\": {\"EI\": " << number(set.truth.EI)
       << ", \"eta_EI\": " << number(set.truth.eta_EI) << ", \"GJ\": " << number(set.truth.GJ)
       << ", \"eta_GJ\": " << number(set.truth.eta_GJ) << ", \"D_E\": " << number(set.D_E) << "},\n"
-      << effectsJson(set) << "  \"sigma\": {";
+      << effectsJson(set.effects) << "  \"sigma\": {";
   for (size_t i = 0; i < set.experiments.size(); ++i) {
     const MeasuredExperiment& e = set.experiments[i];
     out << (i > 0 ? "," : "") << "\n    \"" << e.experiment.name << "\": {";
@@ -203,14 +190,27 @@ std::string recordCsv(const MeasuredExperiment& measured) {
   return text;
 }
 
-void writeFile(const std::filesystem::path& path, const std::string& text) {
+}  // namespace
+
+std::string effectsJson(const std::vector<EffectChoice>& effects) {
+  std::string names, paths;
+  for (const EffectChoice& choice : effects) {
+    names += std::string(names.empty() ? "" : ", ") + "\"" + choice.kind->name + "\"";
+    for (const auto& [path, value] : choice.values) {
+      paths += std::string(paths.empty() ? "" : ",") + "\n    \"" + effectPath(*choice.kind, path) +
+               "\": " + number(value);
+    }
+  }
+  return "  \"effects\": [" + names + "],\n  \"effect_parameters\": {" + paths +
+         (paths.empty() ? "" : "\n  ") + "},\n";
+}
+
+void writeFile(const std::string& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw std::runtime_error("could not write " + path.string());
+  if (!out) throw std::runtime_error("could not write " + path);
 }
-
-}  // namespace
 
 std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experiments, double snr,
                                         Random* random, const Accuracy& accuracy) {
@@ -261,23 +261,27 @@ void forgetStart(double time, MeasuredExperiment* measured) {
   measured->unknown_start = true;
 }
 
-void writeSet(const MeasurementSet& set, const std::string& folder) {
+void writeMeasurement(const MeasurementSet& set, const std::string& folder) {
   const std::filesystem::path path(folder);
   std::error_code error;
   std::filesystem::create_directories(path, error);
   if (error) throw std::runtime_error("could not make " + folder + ": " + error.message());
-  writeFile(path / "measurement.yaml", setYaml(set));
-  writeFile(path / "truth.json", truthJson(set));
+  writeFile((path / "measurement.yaml").string(), setYaml(set));
   for (const MeasuredExperiment& e : set.experiments) {
     const Experiment& experiment = e.experiment;
-    writeFile(path / (experiment.name + ".csv"), recordCsv(e));
+    writeFile((path / (experiment.name + ".csv")).string(), recordCsv(e));
     if (experiment.drive) {
-      writeFile(path / ("clamp_a_" + experiment.name + ".csv"), motionCsv(experiment));
+      writeFile((path / ("clamp_a_" + experiment.name + ".csv")).string(), motionCsv(experiment));
     }
     if (!experiment.tip_forces.empty()) {
-      writeFile(path / ("load_" + experiment.name + ".csv"), loadCsv(experiment));
+      writeFile((path / ("load_" + experiment.name + ".csv")).string(), loadCsv(experiment));
     }
   }
+}
+
+void writeSet(const MeasurementSet& set, const std::string& folder) {
+  writeMeasurement(set, folder);
+  writeFile((std::filesystem::path(folder) / "truth.json").string(), truthJson(set));
 }
 
 }  // namespace cosserat_cable::generator

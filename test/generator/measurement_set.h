@@ -40,6 +40,18 @@ std::vector<MeasuredExperiment> measure(const std::vector<Experiment>& experimen
 /// knows of the start.
 void forgetStart(double time, MeasuredExperiment* measured);
 
+/// JSON of the effects that are simulated: the members `effects` and `effect_parameters`, each
+/// line with a comma at its end.
+std::string effectsJson(const std::vector<EffectChoice>& effects);
+
+/// Writes what a user of the rig would have, without the truth.
+void writeMeasurement(const MeasurementSet& set, const std::string& folder);
+
+/// Writes text, which a decimal number with all its digits is in JSON and YAML; throws
+/// std::runtime_error naming the file.
+std::string number(double value);
+void writeFile(const std::string& path, const std::string& text);
+
 /// Writes measurement.yaml, a CSV file per experiment (and per motion of a clamp, clamp_a_NAME.csv,
 /// and per slow load, load_NAME.csv) and truth.json into a folder, which is made.
 /// Throws std::runtime_error naming the file that could not be written.

@@ -35,4 +35,14 @@ void addNoise(double sigma, Random* random, Eigen::Ref<Eigen::VectorXd> values) 
   for (double& value : values) value += sigma * random->normal();
 }
 
+void addNoise(double sigma, double correlation, Random* random,
+              Eigen::Ref<Eigen::VectorXd> values) {
+  const double fresh = std::sqrt(1.0 - correlation * correlation);
+  double noise = random->normal();
+  for (double& value : values) {
+    value += sigma * noise;
+    noise = correlation * noise + fresh * random->normal();
+  }
+}
+
 }  // namespace cosserat_cable::generator

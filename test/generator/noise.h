@@ -29,4 +29,7 @@ double noiseSigma(const Eigen::VectorXd& values, double rest, double snr);
 /// White Gaussian noise on top of `values`.
 void addNoise(double sigma, Random* random, Eigen::Ref<Eigen::VectorXd> values);
 
+/// The same with a correlation between neighbours (AR(1)); `sigma` is the marginal one.
+void addNoise(double sigma, double correlation, Random* random, Eigen::Ref<Eigen::VectorXd> values);
+
 }  // namespace cosserat_cable::generator

@@ -91,7 +91,7 @@ Points RodDynamics::stationForces(double t, const Kinematics& k, const Points& p
                                   const Points& velocity) const {
   const Points tangent = k.rp * station_values_.transpose();
   Points force = Points::Zero(3, station_s_.size());
-  const StationState at{t, station_s_, position, velocity, tangent, k.base};
+  const StationState at{t, station_s_, position, velocity, tangent, k.base, settled};
   for (const auto& effect : effects_) effect->addForces(at, &force);
   return force;
 }
@@ -100,6 +100,11 @@ void RodDynamics::commit(const MotionState& state) {
   const Kinematics k = kinematics(state.t, state.q, state.v, state.a);
   const ClampTurn turns[2] = {k.turn, holdTurn(state.t, k)};
   for (const auto& effect : effects_) effect->commit({state.t, settled, k.K, k.Kd}, turns);
+  if (station_s_.size() == 0) return;
+  const Points position = stationPositions(k), velocity = stationVelocities(k);
+  const Points tangent = k.rp * station_values_.transpose();
+  const StationState at{state.t, station_s_, position, velocity, tangent, k.base, settled};
+  for (const auto& effect : effects_) effect->commitLoads(at);
 }
 
 void RodDynamics::lineariseClamp(int end, const ClampTurn& turn, Matrix3d* spring,

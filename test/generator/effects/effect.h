@@ -30,6 +30,7 @@ struct StationState {
   const Points& velocity;    ///< [m/s]
   const Points& tangent;     ///< r', not normalised
   const FrameMotion& clamp;  ///< of end a
+  bool settled = false;      ///< quasi-static
 };
 
 /// How far a clamp's section is turned against the clamp: rotation vector in the clamp's frame.
@@ -64,6 +65,7 @@ class Effect {
 
   /// The end of a step becomes history; `turns` of ends a and b.
   virtual void commit(const SectionState&, const ClampTurn* /*turns*/) {}
+  virtual void commitLoads(const StationState&) {}
   /// Whether Newton's method meets kinks.
   virtual bool abrupt() const { return false; }
   /// Twist of the unstressed rod [rad/m]: angles count from it.

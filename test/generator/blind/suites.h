@@ -1,0 +1,37 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "blind_set.h"
+#include "rig_mix.h"
+#include "variation.h"
+
+namespace cosserat_cable::generator {
+
+/// What a suite makes of a plan: kinds at work, rigs to see them in, and what is to be found.
+struct Case {
+  std::vector<const EffectKind*> kinds;
+  std::set<Rig> rigs;
+  std::string label;
+  Expectation expected;
+  bool torsional = false;       ///< the form of the cause that shows in torsion only
+  bool unseen_torsion = false;  ///< and the record to predict is one
+  bool known_starts = false;    ///< in all cases
+  int steps = 0;                ///< of slow bending that are left; 0: all
+  std::vector<std::string> uncertain = {"EI", "GJ", "eta_EI", "eta_GJ"};
+};
+
+Case singleCase(const BlindPlan& plan, Random* random);
+Case nullCase(const BlindPlan& plan, Random* random);
+Case outsideCase(const BlindPlan& plan, Random* random);
+
+/// Rigs that every cause is looked for in.
+std::set<Rig> commonRigs();
+/// Those that tell the cause from its neighbours.
+std::set<Rig> tellingRigs(const std::string& cause, bool torsional);
+/// Adds rigs at random until there are so many.
+void fillUp(size_t count, std::set<Rig>* rigs, Random* random);
+
+}  // namespace cosserat_cable::generator
