@@ -16,13 +16,21 @@ namespace {
 using CaseOf = Case (*)(const BlindPlan&, Random*);
 
 const std::map<std::string, CaseOf>& suites() {
-  static const std::map<std::string, CaseOf> all = {
-      {"single", singleCase}, {"null", nullCase}, {"outside", outsideCase}};
+  static const std::map<std::string, CaseOf> all = {{"single", singleCase},
+                                                    {"null", nullCase},
+                                                    {"outside", outsideCase},
+                                                    {"twins", twinsCase},
+                                                    {"twins-without", twinsWithoutCase},
+                                                    {"absorbed", absorbedCase},
+                                                    {"pairs", pairsCase},
+                                                    {"unidentifiable", unidentifiableCase}};
   return all;
 }
 
 /// Fewer times than this the noise, an effect need not be found.
 constexpr double kWeak = 1.2;
+/// Chi from which on data tell look-alikes apart.
+constexpr double kTold = 8.0;
 
 /// What the sensors show, with noise of these sizes.
 std::vector<MeasuredExperiment> sensed(const std::vector<Experiment>& experiments,
@@ -54,8 +62,13 @@ std::vector<Record> recordsOf(const std::vector<Experiment>& experiments) {
 void shorten(int steps, Experiment* e) {
   if (e->tip_forces.empty() || steps == 0) return;
   e->tip_forces.resize(steps);
-  // The first equilibrium is the unloaded one; alone, it would be no test of stiffness.
   e->times = e->times.head(steps).eval();
+}
+
+void keepTip(Experiment* e) {
+  const auto inner = [e](const Channel& channel) { return channel.s < e->cable.length; };
+  e->channels.erase(std::remove_if(e->channels.begin(), e->channels.end(), inner),
+                    e->channels.end());
 }
 
 }  // namespace
@@ -76,7 +89,10 @@ BlindSet tried(const BlindPlan& plan, CaseOf make, Random random) {
   set.label = one.label;
   set.expected = one.expected;
   RigMix mix = mixRigs(one.rigs, one.unseen_torsion, &random);
-  for (Experiment& e : mix.seen) shorten(one.steps, &e);
+  for (Experiment& e : mix.seen) {
+    shorten(one.steps, &e);
+    if (one.tip_only) keepTip(&e);
+  }
   const EffectScale scale = effectScale(mix.seen, mix.cable);
 
   std::vector<Variation> variations;
@@ -84,14 +100,23 @@ BlindSet tried(const BlindPlan& plan, CaseOf make, Random random) {
   std::vector<EffectChoice> choices;
   std::vector<double> strengths;
   for (const EffectKind* kind : one.kinds) {
-    variations.push_back(varied(*kind, scale, one.torsional, &random));
-    const Strength strength = sizeFor(variations.back(), plan.strength, plan.snr, mix.seen, scale);
+    variations.push_back(varied(*kind, scale, one.form, &random));
+    Variation& cause = variations.back();
+    if (one.fixed_size) cause.first = cause.largest = 1.0;
+    const Strength strength = sizeFor(cause, plan.strength, plan.snr, mix.seen, scale);
+    if (one.rival) {
+      set.separation = separation(cause, strength.size, *one.rival, one.rival_form, plan.snr,
+                                  mix.seen, scale, &random);
+      // What the data do tell apart may be named.
+      if (set.separation > kTold) set.expected.tolerated = {"named"};
+    }
     sizes.push_back(strength.size);
     set.reached =
         set.reached == 0.0 ? strength.left.strength : std::min(set.reached, strength.left.strength);
     strengths = strength.left.experiments;
   }
-  if (!sizes.empty() && set.reached < kWeak) set.expected.tolerated = {"none", "ambiguous"};
+  if (!sizes.empty() && set.reached < kWeak && set.expected.tolerated.empty())
+    set.expected.tolerated = {"none", "ambiguous"};
   choices = choicesOf(variations, sizes, scale);
   if (!choices.empty()) mix.seen = withEffects(mix.seen, choices);
   mix.unseen.effects = choices;
@@ -113,7 +138,7 @@ BlindSet tried(const BlindPlan& plan, CaseOf make, Random random) {
       sensed({mix.unseen}, hidden, noiseOf({mix.unseen}, hidden, plan.snr), set, &random);
   set.strengths = strengths;
   const double period = 2.0 * std::acos(-1.0) / bendingFrequency(mix.cable);
-  if (!one.known_starts && random.chance(0.25)) {
+  if (one.unknown_starts || (!one.known_starts && random.chance(0.25))) {
     for (MeasuredExperiment& e : set.seen.experiments) {
       if (e.experiment.name == "ringdown_small") {
         forgetStart(random.uniform(0.3, 1.0) * period, &e);

@@ -31,7 +31,9 @@ struct BlindSet {
   BlindPlan plan;
   std::string label;  ///< what is at work
   MeasurementSet seen, unseen;
-  double reached = 0.0;           ///< strength
+  double reached = 0.0;  ///< strength
+  /// Chi by which the data tell the cause from its look-alike (of twins; 0: not asked).
+  double separation = 0.0;
   std::vector<double> strengths;  ///< of each experiment
   double correlation = 0.0;       ///< of the noise, between neighbours
   bool told = false;              ///< whether the set says how large the noise is

@@ -58,8 +58,9 @@ std::vector<VectorXd> noiseOf(const std::vector<Experiment>& experiments,
       sum += own[c] * own[c];
       ++positions;
     }
-    // Where a disc hangs still, a camera has noise all the same.
-    const double still = experiments[i].disc ? kStill * experiments[i].cable.length : 0.0;
+    // Where a disc hangs still or no force pulls, a camera has noise all the same.
+    const bool may_rest = experiments[i].disc || !experiments[i].tip_forces.empty();
+    const double still = may_rest ? kStill * experiments[i].cable.length : 0.0;
     const double least = still * std::pow(10.0, -snr / 20.0);
     for (int c = 0; c < count; ++c) {
       if (channels[c].quantity == Channel::Quantity::kPosition) {

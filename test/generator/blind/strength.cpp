@@ -1,5 +1,6 @@
 #include "strength.h"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -58,6 +59,27 @@ Strength sizeFor(const Variation& variation, double target, double snr,
   }
   if (!std::isfinite(least)) throw std::runtime_error("the effect has no possible size");
   return best;
+}
+
+double separation(const Variation& cause, double size, const EffectKind& rival,
+                  const std::string& rival_form, double snr,
+                  const std::vector<Experiment>& experiments, const EffectScale& scale,
+                  Random* random) {
+  constexpr int kForms = 8;
+  constexpr double kSmall = 0.1;  // of a usual size: still linear
+  const auto rigged = withEffects(experiments, choicesOf({cause}, {size}, scale));
+  const Recalibration recalibration(rigged, snr);
+  const Eigen::VectorXd left = recalibration.fit(rigged, Eigen::Vector4d::Zero()).residual;
+  Eigen::MatrixXd columns(left.size(), 4 + kForms);
+  columns.leftCols<4>() = recalibration.derivatives();
+  for (int i = 0; i < kForms; ++i) {
+    const Variation form = varied(rival, scale, rival_form, random);
+    // Held where the cause has the cable held, as a rival's model would have it.
+    std::vector<Experiment> other = plain(rigged);
+    for (Experiment& e : other) e.effects = choicesOf({form}, {kSmall}, scale);
+    columns.col(4 + i) = recalibration.fit(other, Eigen::Vector4d::Zero()).residual / kSmall;
+  }
+  return (left - columns * columns.colPivHouseholderQr().solve(left)).norm();
 }
 
 }  // namespace cosserat_cable::generator

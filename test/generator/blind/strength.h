@@ -25,4 +25,12 @@ struct Strength {
 Strength sizeFor(const Variation& variation, double target, double snr,
                  const std::vector<Experiment>& experiments, const EffectScale& scale);
 
+/// How far the data tell the cause from a rival: chi, the square root of what is left of the
+/// cause's chi^2 when the plain rod's parameters and a few random forms of the rival, as far as
+/// they are linear, are fitted beside each other.
+double separation(const Variation& cause, double size, const EffectKind& rival,
+                  const std::string& rival_form, double snr,
+                  const std::vector<Experiment>& experiments, const EffectScale& scale,
+                  Random* random);
+
 }  // namespace cosserat_cable::generator

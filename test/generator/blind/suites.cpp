@@ -8,8 +8,9 @@
 namespace cosserat_cable::generator {
 namespace {
 
-const EffectKind& drawn(const std::vector<const EffectKind*>& kinds, Random* random) {
-  return *kinds[static_cast<size_t>(random->uniform(0.0, static_cast<double>(kinds.size())))];
+/// One after the other, so that as many seeds have all of them equally often.
+const EffectKind& nextOf(const std::vector<const EffectKind*>& kinds, std::uint64_t seed) {
+  return *kinds[seed % kinds.size()];
 }
 
 }  // namespace
@@ -53,18 +54,19 @@ void fillUp(size_t count, std::set<Rig>* rigs, Random* random) {
 Case singleCase(const BlindPlan& plan, Random* random) {
   Case c;
   const EffectKind& kind =
-      plan.effect.empty() ? drawn(effectKinds(), random) : effectKind(plan.effect);
+      plan.effect.empty() ? nextOf(effectKinds(), plan.seed) : effectKind(plan.effect);
   c.kinds = {&kind};
   c.label = kind.name;
-  c.torsional = c.label == "clamp_damping" && random->chance(0.5);
-  c.unseen_torsion = c.torsional;
+  const bool torsional = c.label == "clamp_damping" && random->chance(0.5);
+  if (torsional) c.form = "torsion";
+  c.unseen_torsion = torsional;
   c.known_starts = c.label == "clock";
   c.rigs = commonRigs();
-  for (const Rig rig : tellingRigs(c.label, c.torsional)) c.rigs.insert(rig);
+  for (const Rig rig : tellingRigs(c.label, torsional)) c.rigs.insert(rig);
   fillUp(random->chance(0.5) ? 4 : 5, &c.rigs, random);
   c.expected.verdict = "named";
   c.expected.causes = {c.label};
-  if (c.label == "clamp_damping" && !c.torsional) c.expected.also = {"clamp_compliance"};
+  if (c.label == "clamp_damping" && !torsional) c.expected.also = {"clamp_compliance"};
   return c;
 }
 
@@ -86,7 +88,7 @@ Case outsideCase(const BlindPlan& plan, Random* random) {
     if (plan.effect == one->name) kind = one;
     known += std::string(" ") + one->name;
   }
-  if (plan.effect.empty()) kind = &drawn(outsideKinds(), random);
+  if (plan.effect.empty()) kind = &nextOf(outsideKinds(), plan.seed);
   if (!kind) throw std::invalid_argument("unknown law " + plan.effect + "; there are" + known);
   c.kinds = {kind};
   c.label = kind->name;

@@ -16,16 +16,31 @@ struct Case {
   std::set<Rig> rigs;
   std::string label;
   Expectation expected;
-  bool torsional = false;       ///< the form of the cause that shows in torsion only
+  std::string form;                   ///< of the cause; empty: any
+  const EffectKind* rival = nullptr;  ///< what it looks like
+  std::string rival_form;
   bool unseen_torsion = false;  ///< and the record to predict is one
   bool known_starts = false;    ///< in all cases
-  int steps = 0;                ///< of slow bending that are left; 0: all
+  bool unknown_starts = false;
+  bool tip_only = false;    ///< no second marker
+  bool fixed_size = false;  ///< as strong as usual, however little of it recalibration leaves
+  int steps = 0;            ///< of slow bending that are left; 0: all
   std::vector<std::string> uncertain = {"EI", "GJ", "eta_EI", "eta_GJ"};
 };
 
 Case singleCase(const BlindPlan& plan, Random* random);
 Case nullCase(const BlindPlan& plan, Random* random);
 Case outsideCase(const BlindPlan& plan, Random* random);
+
+/// One of two look-alikes, with the experiments that tell them apart.
+Case twinsCase(const BlindPlan& plan, Random* random);
+/// The same without these.
+Case twinsWithoutCase(const BlindPlan& plan, Random* random);
+/// Causes that recalibration takes in whole.
+Case absorbedCase(const BlindPlan& plan, Random* random);
+Case pairsCase(const BlindPlan& plan, Random* random);
+/// Records that cannot show what is asked for.
+Case unidentifiableCase(const BlindPlan& plan, Random* random);
 
 /// Rigs that every cause is looked for in.
 std::set<Rig> commonRigs();

@@ -35,16 +35,25 @@ Change drift(Random* random) {
   };
 }
 
-Change clock(Random* random) {
-  const double what = random->uniform(0.0, 3.0), sign = random->chance(0.5) ? 1.0 : -1.0;
+Change clock(const std::string& form, Random* random) {
+  const double drawn = random->uniform(0.0, 3.0);
+  const double what = form == "delay"   ? 0.5
+                      : form == "scale" ? 2.5
+                                        : drawn,
+               sign = random->chance(0.5) ? 1.0 : -1.0;
   return [=](EffectValues* v) {
     (*v)["scale"] *= what < 1.0 ? 0.0 : sign;
     (*v)["delay"] *= what > 2.0 ? 0.0 : 1.0;
   };
 }
 
-Change sensor(Random* random) {
-  const double what = random->uniform(0.0, 3.0), sign = random->chance(0.5) ? 1.0 : -1.0;
+Change sensor(const std::string& form, Random* random) {
+  const double drawn = random->uniform(0.0, 3.0);
+  const double what = form == "scale"      ? 0.5
+                      : form == "tilt"     ? 1.5
+                      : form == "low_pass" ? 2.5
+                                           : drawn,
+               sign = random->chance(0.5) ? 1.0 : -1.0;
   return [=](EffectValues* v) {
     const bool scale = what < 1.0, tilt = what >= 1.0 && what < 2.0;
     (*v)["scale"] = scale ? 1.0 + sign * 3.0 * ((*v)["scale"] - 1.0) : 1.0;
@@ -54,8 +63,12 @@ Change sensor(Random* random) {
   };
 }
 
-Change baseMotion(const EffectScale& scale, Random* random) {
-  const double what = random->uniform(0.0, 3.0), sign = random->chance(0.5) ? 1.0 : -1.0;
+Change baseMotion(const EffectScale& scale, const std::string& form, Random* random) {
+  const double drawn = random->uniform(0.0, 3.0);
+  const double what = form == "amplitude" ? 0.5
+                      : form == "tilt"    ? 2.5
+                                          : drawn,
+               sign = random->chance(0.5) ? 1.0 : -1.0;
   const double angle = random->uniform(-kPi, kPi);
   const double hertz = scale.frequency / (2.0 * kPi);
   return [=](EffectValues* v) {
@@ -71,7 +84,8 @@ Change baseMotion(const EffectScale& scale, Random* random) {
   };
 }
 
-Change changeOf(const EffectKind& kind, const EffectScale& scale, Random* random) {
+Change changeOf(const EffectKind& kind, const EffectScale& scale, const std::string& form,
+                Random* random) {
   const std::string name = kind.name;
   const double angle = random->uniform(-kPi, kPi);
   const double wide = random->logUniform(0.4, 2.5), narrow = random->logUniform(0.7, 1.4);
@@ -105,9 +119,9 @@ Change changeOf(const EffectKind& kind, const EffectScale& scale, Random* random
   if (name == "clamp_play") return factor("a.gap", narrow);
   if (name == "added_mass") return factor("s", random->uniform(0.65, 1.15));
   if (name == "drift") return drift(random);
-  if (name == "clock") return clock(random);
-  if (name == "sensor") return sensor(random);
-  if (name == "base_motion") return baseMotion(scale, random);
+  if (name == "clock") return clock(form, random);
+  if (name == "sensor") return sensor(form, random);
+  if (name == "base_motion") return baseMotion(scale, form, random);
   return [](EffectValues*) {};
 }
 
@@ -138,7 +152,8 @@ EffectValues obstacle(const EffectKind& kind, const EffectScale& scale, double s
 
 }  // namespace
 
-Variation varied(const EffectKind& kind, const EffectScale& scale, bool torsional, Random* random) {
+Variation varied(const EffectKind& kind, const EffectScale& scale, const std::string& form,
+                 Random* random) {
   Variation result;
   result.kind = &kind;
   result.largest = largestSize(kind.name);
@@ -148,7 +163,7 @@ Variation varied(const EffectKind& kind, const EffectScale& scale, bool torsiona
     result.values = [&kind, scale](double size) { return obstacle(kind, scale, size); };
     return result;
   }
-  if (name == "clamp_damping" && torsional) {
+  if (name == "clamp_damping" && form == "torsion") {
     // D_E alone: the disc's own loss against the world.
     result.torsional = true;
     const double D = 0.02 * scale.cable.GJ / (scale.cable.length * scale.torsion);
@@ -158,7 +173,7 @@ Variation varied(const EffectKind& kind, const EffectScale& scale, bool torsiona
     };
     return result;
   }
-  const Change change = changeOf(kind, scale, random);
+  const Change change = changeOf(kind, scale, form, random);
   const double seed = std::floor(random->uniform(1.0, 1e6));
   result.values = [&kind, scale, change, seed](double size) {
     EffectValues values = kind.defaults(scale, size);

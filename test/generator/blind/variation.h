@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "../effects/kinds.h"
@@ -20,8 +21,10 @@ struct Variation {
 
 /// The cause with everything but its size at random: which of its components are at work, where,
 /// in which direction, at which threshold.
-/// @param torsional where there is a choice: the form that shows in torsion only.
-Variation varied(const EffectKind& kind, const EffectScale& scale, bool torsional, Random* random);
+/// @param form of what may be several things: `torsion`, `delay`, `scale`, `tilt`, `low_pass`,
+/// `amplitude`; empty: at random.
+Variation varied(const EffectKind& kind, const EffectScale& scale, const std::string& form,
+                 Random* random);
 
 /// The effects of these variations at these sizes; clamp_damping beside a spring brings that too.
 std::vector<EffectChoice> choicesOf(const std::vector<Variation>& variations,

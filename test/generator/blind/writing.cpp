@@ -40,7 +40,8 @@ std::string truthJson(const BlindSet& set) {
         << "\": " << number(set.strengths[i]);
   }
   const Expectation& e = set.expected;
-  out << "}},\n  \"expected\": {\"verdict\": \"" << e.verdict
+  out << "}},\n  \"separation\": " << number(set.separation)
+      << ",\n  \"expected\": {\"verdict\": \"" << e.verdict
       << "\", \"causes\": " << listJson(e.causes) << ", \"also\": " << listJson(e.also)
       << ",\n    \"tolerated\": " << listJson(e.tolerated)
       << ", \"undetermined\": " << listJson(e.undetermined)
