@@ -140,7 +140,6 @@ bool IsViscous(const std::string& unit) {
 }
 
 bool IsOfExtension(const std::string& path) { return path.rfind(ExtensionPrefix(), 0) == 0; }
-bool IsFault(const std::string& path) { return path.rfind(FaultPrefix(), 0) == 0; }
 
 // The scales of a cable, of an ordinary one where nothing is known.
 struct Scales {
@@ -190,6 +189,9 @@ std::optional<std::size_t> TakeIndex(std::string* path) {
 void MarkAsSet(SourceMark* mark, const std::string& key) {
   if (mark->line == 0) *mark = {"identified", 1, key};
 }
+
+bool IsFault(const std::string& path) { return path.rfind(FaultPrefix(), 0) == 0; }
+bool IsOfEntry(const std::string& path) { return IsFault(path) || IsOfExtension(path); }
 
 std::optional<Parameter> FindParameter(const std::string& path) {
   if (IsOfExtension(path)) return FindExtensionParameter(path);

@@ -61,7 +61,7 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
                          &work.model(single), kMostPairs, 0.6);
     work.FitParts(work.Judged());
     work.RefineBest();
-  } else if (first.verdict == Verdict::kNamed) {
+  } else if (first.verdict == Verdict::kNamed && !work.LeavesNothing(first.best)) {
     std::vector<Screened> second = work.ScreenAround(work.model(first.best), "screening of pairs");
     second.erase(std::remove_if(second.begin(), second.end(),
                                 [](const Screened& one) { return one.drop < kWorthASecond; }),

@@ -201,7 +201,9 @@ void DiagnosisWork::Say(const Judgement& judgement) {
     }
     case Verdict::kUnexplained:
       sentence = left + (untried ? ", and the time limit was reached before all causes were tried"
-                                 : ", and no cause of the library accounts for it");
+                         : diagnosis_.interrupted
+                             ? ", and the work was interrupted before all causes were tried"
+                             : ", and no cause of the library accounts for it");
       if (judgement.best != 0)
         sentence += ": the best, " + List(model(judgement.best).causes(), "and") + ", leaves " +
                     FormatRounded(diagnosis_.extended_times_noise, 3) + " times the noise";
@@ -211,9 +213,17 @@ void DiagnosisWork::Say(const Judgement& judgement) {
 }
 
 Diagnosis DiagnosisWork::Report() {
-  const Judgement judgement = Judged();
+  Judgement judgement = Judged();
+  if (!noise_.known && judgement.verdict == Verdict::kUnexplained) {
+    // Without a level of its own, what is left may be the noise.
+    judgement.verdict = Verdict::kAmbiguous;
+    if (judgement.best != 0) judgement.rivals = {0};
+  }
   diagnosis_.ok = true;
   diagnosis_.interrupted = Stopping();
+  if (diagnosis_.interrupted)
+    diagnosis_.warnings.push_back(
+        "interrupted: the verdict is on the causes that were tried until then");
   diagnosis_.verdict = judgement.verdict;
   diagnosis_.noise_known = noise_.known;
   diagnosis_.noise_floor = NoiseFloor(set_, noise_.levels);
@@ -225,7 +235,7 @@ Diagnosis DiagnosisWork::Report() {
   diagnosis_.extended_times_noise = times(best);
   diagnosis_.baseline = FoundIn(baseline());
   if (judgement.verdict == Verdict::kNamed || judgement.verdict == Verdict::kAmbiguous)
-    diagnosis_.causes = best.causes();
+    diagnosis_.causes = judgement.best == 0 ? std::vector<std::string>{"none"} : best.causes();
   if (judgement.verdict == Verdict::kNamed) {
     diagnosis_.extended = FoundIn(best);
     diagnosis_.extended_set = best.problem->unknowns().FilledSet(best.point.values);
@@ -238,6 +248,10 @@ Diagnosis DiagnosisWork::Report() {
     diagnosis_.warnings.push_back(
         "the noise of a channel is not known and cannot be told from its record: give its sigma; "
         "until then nothing can be called unexplained");
+  if (set_.experiments.size() == 1)
+    diagnosis_.warnings.push_back(
+        "the set has one experiment: its last part was predicted from its first, which shows less "
+        "than a record of its own would");
   ReportCandidates(judgement);
   if (!Stopping()) ReportGain(judgement);
   ReportRecords(judgement);

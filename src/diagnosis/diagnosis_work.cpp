@@ -14,6 +14,12 @@ constexpr int kIterations = 20;
 // Part of a cause's best promise above which another start of it is fitted too, and how many.
 constexpr double kAsPromising = 0.6;
 constexpr int kStarts = 2;
+// A rival of a cause that leaves just noise: the part of the misfit that it must promise, and the
+// iterations that it gets.
+constexpr double kRivalPromise = 0.03;
+constexpr int kRivalIterations = 12;
+// Of the noise's sum of squares: too little for a cause.
+constexpr double kNothing = 0.02;
 // A promise, in noise variances, that chance makes among all hypotheses.
 constexpr double kChance = 10;
 // A noise level that the baseline shows to be this part smaller than the record alone did.
@@ -138,7 +144,7 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   fitted->trials = trials;
   fitted->set = WithTrials(set_, trials);
   FitProblemOptions options = ProblemOptions();
-  options.max_iterations = kIterations;
+  options.max_iterations = IsExplained() ? kRivalIterations : kIterations;
   options.progress = [this](const std::string&) { return !Stopping(); };
   Problems problems;
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
@@ -146,6 +152,12 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   fitted->problem->ShareSteps(*from.problem);
   fitted->point = fitted->problem->FitFrom(from.point);
   return fitted;
+}
+
+/// Whether one of the causes leaves nothing but noise.
+bool DiagnosisWork::IsExplained() const {
+  return std::any_of(models_.begin() + 1, models_.end(),
+                     [&](const auto& one) { return AdequacyOf(one->point, noise_).adequate; });
 }
 
 /// Whether a cause, beside others, leaves nothing but noise already: no other start does better.
@@ -194,8 +206,10 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
   double done = 0;
   for (const std::string& name : chosen) {
     if (!beside && !tried_.insert(name).second) continue;
+    const bool explained = IsExplained();
     for (const Screened* one : by_cause[name]) {
-      if (one != by_cause[name].front() && IsExplained(name, beside)) break;
+      if (one != by_cause[name].front() && (explained || IsExplained(name, beside))) break;
+      if (explained && one->drop < kRivalPromise * from.point.cost) break;
       if (OutOfTime() || !Tell((beside ? "together with " : "trying ") + name,
                                part + 0.3 * done / static_cast<double>(chosen.size())))
         return;
@@ -294,6 +308,11 @@ void DiagnosisWork::FindCorrelations() {
 
 Difference DiagnosisWork::DifferenceBetween(int worse, int better) const {
   return DifferenceOf(model(worse).point.residuals, model(better).point.residuals, correlations_);
+}
+
+bool DiagnosisWork::LeavesNothing(int i) const {
+  const Adequacy adequacy = AdequacyOf(model(i).point, noise_);
+  return adequacy.excess() < std::max(kNothing * adequacy.expected, 2 * adequacy.sd);
 }
 
 Judgement DiagnosisWork::Judged() const {

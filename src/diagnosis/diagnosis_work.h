@@ -46,6 +46,8 @@ class DiagnosisWork {
   /// The steps of the best models made as fine as what is left there asks, and they are fitted
   /// again.
   void RefineBest();
+  /// Whether a model leaves so little beyond the noise that nothing can be missing from it.
+  bool LeavesNothing(int model) const;
   /// The verdict on what has been fitted so far.
   Judgement Judged() const;
   Diagnosis Report();
@@ -66,6 +68,7 @@ class DiagnosisWork {
   FitProblemOptions ProblemOptions() const;
   std::unique_ptr<FittedTrial> FitOne(const std::vector<Trial>& trials, const FittedTrial& from);
   void Keep(std::unique_ptr<FittedTrial> model);
+  bool IsExplained() const;
   bool IsExplained(const std::string& name, const FittedTrial* beside) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
   void FindCorrelations();

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/identification/identified_cable.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/record_csv.h"
@@ -22,8 +23,6 @@ std::string Joined(const std::vector<std::string>& causes) {
   for (const std::string& cause : causes) text += (text.empty() ? "" : "+") + cause;
   return text;
 }
-
-bool IsFault(const std::string& path) { return path.rfind("faults.", 0) == 0; }
 
 json ParametersJson(const std::map<std::string, FoundParameter>& found) {
   json values = json::object();

@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/fit/noise.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/rod/rod_batch.h"
@@ -201,9 +202,6 @@ void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, Rec
         model->Ignore(records[e].unknowns[k], static_cast<int>(e));
 }
 
-/// What is known of a law beyond the plain rod is little more than its size.
-bool IsOfExtension(const std::string& name) { return name.find('.') != std::string::npos; }
-
 /// Spread evenly over the box around the start, the same on each run.
 std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
   std::mt19937 random(kSeed);
@@ -225,7 +223,8 @@ std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
       if (u.sign == ParameterSign::kSigned) {
         values[i] += level * u.scale;
       } else {
-        const bool hardly_known = u.damping ? !u.start_known : IsOfExtension(u.name);
+        // What is known of a law beyond the plain rod is little more than its size.
+        const bool hardly_known = u.damping ? !u.start_known : IsOfEntry(u.name);
         const double spread = hardly_known ? kWideSpread : kStiffnessSpread;
         values[i] = (values[i] > 0 ? values[i] : u.scale) * std::pow(spread, level);
       }

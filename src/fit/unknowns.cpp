@@ -29,9 +29,6 @@ double TorsionFrequency(const CableKeys& keys, const Experiment& experiment) {
   return kPi / (2 * L) * std::sqrt(GJ / rhoJ);
 }
 
-bool IsFault(const std::string& name) { return name.rfind("faults.", 0) == 0; }
-bool IsOfEntry(const std::string& name) { return name.find('.') != std::string::npos; }
-
 /// Where nothing is known of a parameter: what makes a marked difference to this experiment; 0
 /// where the key has a value or a default in any case, or the experiment cannot show it.
 double TypicalSizeIn(const std::string& name, const CableKeys& keys, const Experiment& experiment) {

@@ -34,6 +34,10 @@ struct Parameter {
   bool damping = false;  ///< a viscous loss: nothing at rest shows it
 };
 
+/// Whether the path is of a fault of a record; of that or of an extension, not of the cable itself.
+bool IsFault(const std::string& path);
+bool IsOfEntry(const std::string& path);
+
 /// Nothing where neither a cable nor a record can have a parameter of this path. Of a list any
 /// index is a path.
 std::optional<Parameter> FindParameter(const std::string& path);
