@@ -19,8 +19,15 @@
 // 0 these are EI and 12 EI/h^2, theta^2/24 and sigma^2/10: of a parabola and of a cubic. With them
 // alone a clamp of a string would reach 0.12 h into it, instead of sqrt(EI/T).
 //
-// The functions are evaluated at the tension that the last step, or round of statics, has found. As
-// the potential is stationary there, forces and energies are in error by the square of its change.
+// The functions are evaluated at a tension that was known before the step, or round of statics. As
+// the potential is stationary at its own tension, forces and energies are in error by the square of
+// the difference. That tension follows the element's own. It must not do so at once: what bending
+// takes up falls with the tension, by c = -d(way)/dT, so that a tension which is too high in one
+// step makes one that is too low in the next, by c times the stiffness of what holds the chord.
+// That is inertia, of a short step, and stretching at most: K, of the element. Where c K > 1, which
+// a flexible cable of few elements has at rest, the tension would swing to and fro and grow. By
+// 1/(1 + c K) of the way in a step (Newton's, of an element whose nodes are held) it never does,
+// for any step and any number of elements: those of a chain share its chord by their compliances.
 #pragma once
 
 #include "cosserat_cable/math/lanes.h"
@@ -123,6 +130,37 @@ Stiffening<T> EvaluateStiffening(const BeamColumn<T>& column, const T& tension) 
   const T along = T(3.0) * (slope - T(1.0 / 15));
   return {axis(column.x, x), axis(column.y, y), bend(column.x, x), bend(column.y, y),
           WhereAtLeast(tension * slenderer, kSlackBelow, along) * column.shear};
+}
+
+/// No less than -f'' and -g'' of y >= 0, and by a third more at most.
+template <class T>
+T BoundOfCurvature(const T& y, double at_zero, double decay) {
+  constexpr double kAbove = 1.3;
+  const T one_over = T(1.0) / (T(1.0) + T(decay) * y);
+  return T(kAbove * at_zero) * one_over * Sqrt(one_over);
+}
+
+/// How much less stretch an element's bending takes up per tension, at least at `tension` >= 0
+/// [m/N]: of one that is turned by `theta`, and whose chord is longer by `aside` than its part
+/// along the normal.
+template <class T>
+T WayPerTension(const BeamColumn<T>& column, const T& tension, const PerAxis<T>& theta,
+                const T& aside) {
+  const auto bend = [&](const BeamColumnAxis<T>& axis, const T& angle) {
+    return axis.slenderness * angle * angle *
+           BoundOfCurvature(tension * axis.slenderness, 2.0 / 45, 0.3);
+  };
+  const T slenderer = Max(column.x.slenderness, column.y.slenderness);
+  return T(0.125) * Abs(column.bend) * (bend(column.x, theta.x) + bend(column.y, theta.y)) +
+         T(3.0) * Abs(column.shear) * aside * slenderer *
+             BoundOfCurvature(tension * slenderer, 2.0 / 525, 0.12);
+}
+
+/// The tension that the next step's law is evaluated at, [N], at least 0: from that of the last one
+/// towards the one found. `stiffness`: of the element against stretching, over a step [N/m].
+template <class T>
+T Followed(const T& last, const T& found, const T& way_per_tension, const T& stiffness) {
+  return last + (Max(found, T(0.0)) - last) / (T(1.0) + way_per_tension * stiffness);
 }
 
 /// `sense`: 1, or -1 of an element that is seen from its other end.

@@ -147,9 +147,25 @@ ChainStrain<T> StrainOf(const ElementState<T>& state) {
   return {state.u, state.u_rate, state.theta, state.theta_rate};
 }
 
+/// What the next step's law is evaluated at, where the last one's was at `last` and `found` came
+/// out. Of slack elements nothing depends on it.
+template <class T>
+T FollowedTension(const StepCoefficients& c, const StepChain<T>& w, const ScaledLaw<T>& law,
+                  const ElementState<T>& state, const T& last, const T& found) {
+  const BeamColumn<T>& column = w.law.column;
+  const T pull = Max(found, T(0.0));
+  const T slenderest = Max(last, pull) * Max(column.x.slenderness, column.y.slenderness);
+  if (!AnyAtLeast(slenderest, kSlackBelow)) return pull;
+  const T along = w.shear_law.forwards * state.chord.z;
+  const T aside = Dot(state.chord, state.chord) * state.one_over_chord - along;
+  const T stiffness = law.C_F.z + T(c.velocity_by_increment) * law.V_F.z;
+  const T way = WayPerTension(column, Min(last, pull), {state.theta.x, state.theta.y}, aside);
+  return pull + WhereAtLeast(slenderest, kSlackBelow, Followed(last, pull, way, stiffness) - pull);
+}
+
 /// False where it has to be done again, as EliminateForward.
 template <bool kJointed, class T>
-bool CommitElements(const T& taken, StepChain<T>* chain) {
+bool CommitElements(const StepCoefficients& c, const T& taken, StepChain<T>* chain) {
   StepChain<T>& w = *chain;
   const int elements = w.layout.chain_elements;
   const ScaledLaw<T> slack(w.law);
@@ -174,6 +190,7 @@ bool CommitElements(const T& taken, StepChain<T>* chain) {
     T tension =
         shear.forwards * (law.unstrained_F.z + law.C_F.z * state.u.z + law.V_F.z * state.u_rate.z);
     if (w.branched) tension += shear.forwards * w.branch_offsets[e].F.z;
+    tension = FollowedTension(c, w, law, state, w.tension[e], tension);
     if (e < w.layout.padding) {
       now = Taken(w.exists, now, before);
       lost = w.exists * lost;
@@ -181,7 +198,7 @@ bool CommitElements(const T& taken, StepChain<T>* chain) {
     }
     dissipation += lost;
     w.next_shear[e] = all ? now : Taken(taken, now, before);
-    w.tension[e] = all ? tension : Taken(taken, tension, w.tension[e]);
+    w.next_tension[e] = all ? tension : Taken(taken, tension, w.tension[e]);
     BalanceEnds<kJointed>(law, e, state, &w);
   }
   if (!w.careful && AnyAtLeast(largest, kArcTangentSeriesBelow)) {
@@ -190,6 +207,7 @@ bool CommitElements(const T& taken, StepChain<T>* chain) {
   }
   w.dissipation = dissipation;
   std::swap(w.shear, w.next_shear);
+  std::swap(w.tension, w.next_tension);
   return true;
 }
 
@@ -260,12 +278,12 @@ bool EvaluateStrainsOf(StepChain<T>* chain) {
   void Predict(const StepCoefficients& c, StepChain<T>* w) { PredictOf(c, w); }      \
   KERNEL                                                                             \
   void AcceptUnjointed(const StepCoefficients& c, const T& taken, StepChain<T>* w) { \
-    while (!CommitElements<false>(taken, w)) continue;                               \
+    while (!CommitElements<false>(c, taken, w)) continue;                            \
     CommitNodes(c, taken, w);                                                        \
   }                                                                                  \
   void Accept(const StepCoefficients& c, const T& taken, StepChain<T>* w) {          \
     if (w->joints.empty()) return AcceptUnjointed(c, taken, w);                      \
-    while (!CommitElements<true>(taken, w)) continue;                                \
+    while (!CommitElements<true>(c, taken, w)) continue;                             \
     CommitNodes(c, taken, w);                                                        \
   }                                                                                  \
   KERNEL                                                                             \

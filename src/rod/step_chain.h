@@ -159,6 +159,7 @@ struct StepChain {
         shear(layout.chain_elements),
         next_shear(shear.size()),
         tension(shear.size(), T(0.0)),
+        next_tension(tension),
         stiffening(shear.size()),
         taut_laws(shear.size()),
         nodes(state.size()),
@@ -227,9 +228,9 @@ struct StepChain {
   std::vector<ChainState<T>> state;
   Persistence<T> persistence;
   std::vector<ChainShear<T>> shear, next_shear;  // the latter is of a step that is being accepted
-  // The elements' tensions, as the rod itself sees them, at the last instant [N]; where any
-  // matters, what they make of the laws of the step.
-  std::vector<T> tension;
+  // The elements' tensions that the law of the step is evaluated at, at least 0 [N], and those of
+  // the next one; where any matters, what they make of the laws of the step.
+  std::vector<T> tension, next_tension;
   bool taut = false;
   std::vector<Stiffening<T>> stiffening;
   std::vector<ScaledLaw<T>> taut_laws;

@@ -84,6 +84,39 @@ TEST(BeamColumnTest, SlackAndPressedElementsAreLeftAlone) {
   }
 }
 
+TEST(BeamColumnTest, TheWayThatATensionTakesBackIsBounded) {
+  const BeamColumn<double> column = {Axis(kEI), Axis(3 * kEI), kH, 1.0};
+  constexpr double kStep = 1e-3;  // relative
+  for (const PerAxis<double> theta : {PerAxis<double>{0.3, 0.0}, PerAxis<double>{0.1, 0.2}})
+    for (double tension = 0.1; tension < 1e4; tension *= 3) {
+      const auto way = [&](double at) {
+        const Stiffening<double> by = EvaluateStiffening(column, at);
+        return by.bend_x * theta.x * theta.x + by.bend_y * theta.y * theta.y;
+      };
+      const double falls =
+          (way(tension * (1 - kStep)) - way(tension * (1 + kStep))) / (2 * kStep * tension);
+      const double bound = WayPerTension(column, tension, theta, 0.0);
+      EXPECT_GT(bound, 0.99 * falls) << tension;
+      if (tension * column.x.slenderness < 0.5 * kTautAbove) {
+        EXPECT_LT(bound, 1.5 * falls + 1e-15);
+      }
+    }
+}
+
+TEST(BeamColumnTest, ATensionIsFollowedWithoutSwinging) {
+  // Held as stiffly as can be, what comes out falls by c K of what the law was evaluated at.
+  for (const double gain : {0.1, 1.0, 30.0}) {
+    double last = 5;
+    for (int step = 0; step < 300; ++step) {
+      const double next = Followed(last, 2 + gain * (2 - last), gain, 1.0);
+      EXPECT_LE(std::abs(next - 2), std::abs(last - 2));
+      last = next;
+    }
+    EXPECT_NEAR(last, 2, 1e-9);
+  }
+  EXPECT_EQ(Followed(0.0, -3.0, 0.0, 1.0), 0);
+}
+
 TEST(BeamColumnTest, NothingIsInfiniteHoweverTaut) {
   const BeamColumn<double> column = {Axis(1e-12), Axis(kEI), kH, 1.0};
   const Stiffening<double> by = EvaluateStiffening(column, 1e6);

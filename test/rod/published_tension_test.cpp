@@ -297,6 +297,40 @@ TEST(PublishedTension, APluckedWireKeepsItsEnergy) {
   EXPECT_LT(worst, kWithin * stored);
 }
 
+TEST(PublishedTension, AFlexibleWireHangsStillAndIsPulledTaut) {
+  // A wire that stretches by next to nothing: what bending takes up of its few elements' stretch
+  // swings with the tension by more than the wire gives way. Left alone it hangs still, at any
+  // step; pulled beyond its length it carries EA times its stretch.
+  constexpr double kLong = 0.4, kSpan = 0.35, kWireEA = 5e4, kPulled = 1e-3;
+  constexpr double kSwings = 3e-2;  // what its swinging on adds to the tension
+  for (const double EI : {1e-4, 1e-8})
+    for (const int elements : {4, 10, 20, 40})
+      for (const double dt : {1e-3, 2e-4}) {
+        RodModel model = RoundCable(kLong, 0.002, 0.03, EI, EI, 4e-3 * EI, 4e-3 * EI, elements);
+        model.section.C_F = {kWireEA / 3, kWireEA / 3, kWireEA};
+        model.section.V_F.z() = 4 * kLong / M_PI * std::sqrt(0.03 * kWireEA);
+        model.gravity = {0, 0, -kGravity};
+        const Vector3d along = Vector3d::UnitX();
+        const Pose a = Facing(Vector3d::Zero(), along);
+        Pose b = Facing(kSpan * along, along);
+        Rod rod(model);
+        rod.SetConfiguration(BowedShape(a, b, kLong, elements, -Vector3d::UnitZ()));
+        ASSERT_TRUE(rod.Equilibrate().converged);
+        const double stored = rod.elastic_energy();
+        for (int k = 0; k < 200; ++k) ASSERT_TRUE(rod.Step(dt, a, b).converged);
+        EXPECT_LT(rod.kinetic_energy(), 1e-6 * stored) << EI << " " << elements << " " << dt;
+        if (dt < 1e-3) continue;
+        for (int k = 1; k <= 500; ++k) {
+          const double s = k / 500.0;
+          b.p.x() = kSpan + ((1 + kPulled) * kLong - kSpan) * s * s * (3 - 2 * s);
+          ASSERT_TRUE(rod.Step(dt, a, b).converged) << EI << " " << elements << " " << k;
+        }
+        for (int k = 0; k < 1000; ++k) ASSERT_TRUE(rod.Step(dt, a, b).converged);
+        EXPECT_NEAR(rod.reaction_b().force.x(), kPulled * kWireEA, kSwings * kPulled * kWireEA)
+            << EI << " " << elements;
+      }
+}
+
 TEST(PublishedTension, TensionOnlyEverStiffens) {
   // The lowest frequency of a straight rod grows with each pull, from slack to far beyond
   // 12 EI/h^2.
