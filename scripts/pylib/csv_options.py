@@ -183,6 +183,9 @@ def arrange(table, time, values, line_numbers, times, options):
         notes.append(f'{times.empty} empty rows left out')
     if table.left_out:
         notes.append('the last row, which ends in the middle, left out')
+    if table.footer:
+        lines = 'a line' if table.footer == 1 else f'{table.footer} lines'
+        notes.append(f'{lines} of words below the rows left out')
     if times.rollovers:
         notes.append('times begin again at line ' + ', '.join(map(str, times.rollovers[:5]))
                      + (', ...' if len(times.rollovers) > 5 else '')
@@ -193,6 +196,7 @@ def arrange(table, time, values, line_numbers, times, options):
                'units_line': d.units_line, 'time_column': None if time is None
                else table.label(time), 'time': times.unit, 'equal_times_left_out': times.dropped,
                'empty_rows_left_out': times.empty, 'cut_rows_left_out': table.left_out,
+               'lines_below_left_out': table.footer,
                'time_begins_again_at_lines': times.rollovers}
     return Rows(times.seconds, {p: v[times.keep] for p, v in values.items()},
                 np.array(line_numbers)[times.keep], words, notes, numbers, times.absolute)

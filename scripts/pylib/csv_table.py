@@ -14,6 +14,7 @@ from csv_text import NotUnderstood
 
 DECIMALS = {'.': 'point', ',': 'comma'}
 SHOWN = 50  # problems of one kind; the others are counted
+FOOTER = 20  # lines of words below the last row, as loggers end their files, at most
 
 
 class CsvTable:
@@ -31,6 +32,7 @@ class CsvTable:
             raise
         self.names = self.dialect.names
         self.left_out = 0  # last lines that end in the middle
+        self.footer = 0  # lines of words below the rows
         self.decimal = decimal
 
     def __enter__(self):
@@ -77,12 +79,14 @@ class CsvTable:
             problems.add(self.path, f'not a CSV text: {error}')
         finally:
             text.detach()
-        self.report_odd(odd, last, len(picked), problems)
+        if lines:
+            odd = self.without_footer(odd, lines[-1])
+        self.report_odd([o[:2] for o in odd], last, len(picked), problems)
         return [list(c) for c in zip(*picked)] if picked else [[] for _ in places], lines
 
     def pick_rows(self, text, places):
-        """(cells, line numbers, [(line, cells) of rows that have too few or too many], last
-        line)."""
+        """(cells, line numbers, [(line, cells, whether words) of rows that have too few or too
+        many], last line)."""
         start, delimiter = self.dialect.data_line, self.dialect.delimiter
         rest = itertools.islice(text, start - 1, None)
         if delimiter == ' ':
@@ -111,8 +115,16 @@ class CsvTable:
                     count(number)
                 elif not csv_dialect.is_blank(row):
                     odd.append((number, len(csv_dialect.without_trailing(row))
-                                if len(row) > width else len(row)))
+                                if len(row) > width else len(row), begins_with_word(row)))
         return picked, lines, odd, number
+
+    def without_footer(self, odd, last_good):
+        """Counts the lines of words below the last row, and leaves them out."""
+        below = [o for o in odd if o[0] > last_good]
+        if not below or len(below) > FOOTER or not all(words for _, _, words in below):
+            return odd
+        self.footer = len(below)
+        return odd[:-len(below)]
 
     def report_odd(self, odd, last, good, problems):
         if odd and odd[-1] == (last, odd[-1][1]) and odd[-1][1] < len(self.names) \
@@ -173,6 +185,11 @@ class CsvTable:
         if d.units_line:
             words.append(f'units on line {d.units_line}')
         return words
+
+
+def begins_with_word(row):
+    """Whether a row's first cell that is not empty begins with a letter."""
+    return next((cell.strip()[0].isalpha() for cell in row if cell.strip()), False)
 
 
 def numbers(cells, lines, name, decimal, path, problems):

@@ -271,6 +271,18 @@ class TravelToBag(unittest.TestCase):
         with open(summary, encoding='utf-8') as source:
             self.assertEqual(json.load(source)['csv']['equal_times_left_out'], 10)
 
+    def test_words_below_the_rows_are_left_out_and_counted(self):
+        rows = [f'{i / 100:.2f},0.01,0.02' for i in range(30)]
+        self.write('t,fork,rear', *rows, '', 'End of file')
+        code, out, errors = self.convert('--column', 'fl=fork')
+        self.assertEqual(code, 0, errors)
+        self.assertIn('a line of words below the rows left out', out)
+        # In the middle, or numbers: something else is wrong.
+        self.write('t,fork,rear', *rows, 'pause', *rows[-1:])
+        self.assertIn('got 1 cells, expected 3', self.refused_again('--column', 'fl=fork'))
+        self.write('t,fork,rear', *rows, '0.30,0.01', '')
+        self.assertIn('got 2 cells, expected 3', self.refused_again('--column', 'fl=fork'))
+
     def test_default_cutoff_fits_the_rate(self):
         for step, said in ((0.02, 'low-pass 20 Hz'), (0.002, 'low-pass 40 Hz')):
             self.write('t,fork', *[f'{i * step:.3f},0.01' for i in range(50)])
