@@ -257,7 +257,9 @@ void EdgeJudge::Impl::ReportAccelerations(Findings* findings) const {
   finding.what = "accelerates by up to " + Printed("%.3g ", finding.size) + finding.unit +
                  " between samples (" + std::to_string(finding.count) + " times more than " +
                  Printed("%g)", finding.limit);
-  finding.remedy = "are these outliers? take them out of the recording, or --smooth HZ";
+  finding.remedy =
+      "are these outliers, or do two publishers disagree? take them out of the recording, or "
+      "--smooth HZ";
   findings->push_back(std::move(finding));
 }
 

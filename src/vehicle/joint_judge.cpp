@@ -17,6 +17,8 @@ constexpr double kVelocityBase = 0.02;
 constexpr double kOffAxis = 5e-3, kOffTurn = 0.02;
 // Beyond the limits by this factor a unit is more likely than an overload.
 constexpr double kUnitFactor = 1.5;
+// A unit is wrong in all samples, an outlier in few of them.
+constexpr double kHabit = 0.1;
 constexpr double kDegree = M_PI / 180, kMillimetre = 1e-3;
 
 double Wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
@@ -95,6 +97,7 @@ void JointJudge::Judge(std::int64_t stamp, double position, bool wraps) {
     const double span = static_cast<double>(stamp - base_) * 1e-9;
     if (span >= kVelocityBase) {
       const double velocity = (travel_ - base_travel_) / span;
+      ++velocities_;
       if (std::abs(velocity) > (1 + kVelocityTolerance) * joint_->velocity)
         velocity_.Add(stamp, std::abs(velocity), velocity);
       base_ = stamp;
@@ -150,7 +153,9 @@ void JointJudge::ReportVelocity(const std::string& topic, Findings* findings) co
                  ", the URDF has " + Printed("%.4g", joint_->velocity);
   const double scale = turns() ? kDegree : kMillimetre;
   const bool unit_fits = scale * velocity_.size <= joint_->velocity;
-  if (unit_fits && velocity_.size > 1 / std::sqrt(scale) * joint_->velocity) {
+  const bool often =
+      static_cast<double>(velocity_.count) > kHabit * static_cast<double>(velocities_);
+  if (unit_fits && often && velocity_.size > 1 / std::sqrt(scale) * joint_->velocity) {
     finding.remedy = turns() ? "are these degrees?" : "are these millimetres?";
   } else {
     finding.remedy = "does it jump, are its stamps wrong, or is its limit?";

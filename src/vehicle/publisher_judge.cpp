@@ -15,10 +15,25 @@ constexpr double kBend = 0.5;
 // The faster publisher is interpolated: its samples say what happened between the other's.
 constexpr double kFaster = 1.5;
 
+// Two courses are farther apart than this [m], with half a metre for a radian; nearer ones are
+// noise.
+constexpr double kApart = 5e-3, kLever = 0.5;
+// Every other sample continues the same course: next to it the neighbours are off by more than
+// this.
+constexpr double kContinues = 0.2;
+constexpr std::uint64_t kFewestInARow = 8;
+
 double Angle(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond turn = from.conjugate() * to;
   return 2 * std::atan2(turn.vec().norm(), std::abs(turn.w()));
 }
+
+struct Apart {
+  double translation, rotation;
+  double whole() const { return translation + kLever * rotation; }
+};
+
+Apart Distance(const Pose& a, const Pose& b) { return {(a.p - b.p).norm(), Angle(a.q, b.q)}; }
 
 }  // namespace
 
@@ -34,11 +49,50 @@ void PublisherJudge::Add(int publisher, std::int64_t stamp, const Pose& X_PC) {
   }
   same->before = same->last;
   same->last = {stamp, X_PC};
+  LookForTwoCourses(&*same);
   if (publishers_.size() == 1) return;
   for (const Publisher& other : publishers_) {
     if (other.number == publisher) continue;
     Compare(other, *same);
     Compare(*same, other);
+  }
+}
+
+void PublisherJudge::LookForTwoCourses(Publisher* publisher) {
+  std::array<Sample, 5>& recent = publisher->recent;
+  recent[publisher->count++ % recent.size()] = publisher->last;
+  if (publisher->before.stamp == 0 ||
+      Distance(publisher->before.X, publisher->last.X).whole() < kApart) {
+    publisher->to_and_fro = 0;
+    return;
+  }
+  if (publisher->count < recent.size()) return;
+  const auto ago = [&](std::uint64_t n) -> const Sample& {
+    return recent[(publisher->count - 1 - n) % recent.size()];
+  };
+  const Sample& middle = ago(2);
+  // How far it is off the straight line between two others.
+  const auto off = [&](const Sample& from, const Sample& to) {
+    const double part =
+        static_cast<double>(middle.stamp - from.stamp) / static_cast<double>(to.stamp - from.stamp);
+    return Distance({from.X.p + part * (to.X.p - from.X.p), from.X.q.slerp(part, to.X.q)},
+                    middle.X);
+  };
+  const Apart neighbours = off(ago(3), ago(1)), next = off(ago(4), ago(0));
+  if (ago(0).stamp - ago(4).stamp > kTogether || neighbours.whole() < kApart ||
+      next.whole() > kContinues * neighbours.whole()) {
+    publisher->to_and_fro = 0;
+    return;
+  }
+  if (++publisher->to_and_fro < kFewestInARow) return;
+  Conflict& found = two_courses_;
+  if (found.count == 0) found.first = middle.stamp;
+  found.count += publisher->to_and_fro == kFewestInARow ? kFewestInARow : 1;
+  if (neighbours.whole() > found.translation + kLever * found.rotation) {
+    found.worst = middle.stamp;
+    found.translation = neighbours.translation;
+    found.rotation = neighbours.rotation;
+    found.one = found.other = publisher->number;
   }
 }
 
@@ -61,8 +115,6 @@ void PublisherJudge::Compare(const Publisher& fast, const Publisher& slow) {
   if (translation <= kSameTranslation + kBend * step && rotation <= kSameRotation + kBend * turn)
     return;
   if (conflict_.count == 0) conflict_.first = sample.stamp;
-  // A radian at half a metre weighs as much as half a metre.
-  constexpr double kLever = 0.5;
   if (translation + kLever * rotation > conflict_.translation + kLever * conflict_.rotation) {
     conflict_.worst = sample.stamp;
     conflict_.translation = translation;

@@ -139,7 +139,9 @@ std::string RecordingJudge::SmoothFrame(const Way& way) const {
 }
 
 void RecordingJudge::ReportConflict(const Edge& edge, Findings* findings) const {
-  const PublisherJudge::Conflict& conflict = edge.publishers.conflict();
+  const bool named = edge.publishers.conflict().count >= kLeastConflicts;
+  const PublisherJudge::Conflict& conflict =
+      named ? edge.publishers.conflict() : edge.publishers.two_courses();
   if (conflict.count < kLeastConflicts) return;
   Finding finding;
   finding.kind = "two_publishers";
@@ -149,11 +151,19 @@ void RecordingJudge::ReportConflict(const Edge& edge, Findings* findings) const 
     finding.subject = "joint '" + joint->name + "'";
   }
   finding.topic = edge.topic;
-  finding.what = "is published by " + publishers_[static_cast<std::size_t>(conflict.one)] +
-                 " and by " + publishers_[static_cast<std::size_t>(conflict.other)] +
-                 " with different values (" + std::to_string(conflict.count) +
-                 " samples, by up to " + Difference(conflict.translation, conflict.rotation) + ")";
-  finding.remedy = "stop one of them, or take its messages out of the recording";
+  const auto name = [this](int number) { return publishers_[static_cast<std::size_t>(number)]; };
+  const std::string size = " (" + std::to_string(conflict.count) + " samples, by up to " +
+                           Difference(conflict.translation, conflict.rotation) + ")";
+  if (named) {
+    finding.what = "is published by " + name(conflict.one) + " and by " + name(conflict.other) +
+                   " with different values" + size;
+    finding.remedy = "stop one of them, or take its messages out of the recording";
+  } else {
+    finding.what =
+        "goes to and fro between two courses with each sample of " + name(conflict.one) + size;
+    finding.remedy =
+        "do two publishers disagree? stop one of them, or take its messages out of the recording";
+  }
   finding.count = conflict.count;
   finding.first = conflict.first;
   finding.worst = conflict.worst;

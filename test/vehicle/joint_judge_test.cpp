@@ -77,6 +77,15 @@ TEST(JointJudge, LimitsOfVelocityAreTold) {
   EXPECT_NEAR(findings[0].size, 2.7, 0.05);
 }
 
+TEST(JointJudge, OutliersAreNotTakenForDegrees) {
+  const Findings findings = Found(kSteer, [](double t) {
+    return std::abs(t - 2) < 0.001 ? -0.6 : 0.6;  // as fast as 60 rad/s, for one sample
+  });
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "joint_velocity");
+  EXPECT_EQ(findings[0].remedy.find("degrees"), std::string::npos);
+}
+
 TEST(JointJudge, EncoderStepsAreNoVelocity) {
   JointJudge judge(kTravel, kMaxGap);
   constexpr double kStep = 4e-3;  // 1 kHz: 4 m/s from one sample to the next

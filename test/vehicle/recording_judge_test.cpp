@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace cosserat_cable {
 namespace {
@@ -103,6 +104,34 @@ TEST_F(RecordingJudgeTest, PublishersThatDisagreeAreNamed) {
   EXPECT_NE(findings[0].what.find("/driver"), std::string::npos);
   EXPECT_NE(findings[0].what.find("/zeros"), std::string::npos);
   EXPECT_NEAR(findings[0].size, 0.03, 0.001);
+}
+
+TEST_F(RecordingJudgeTest, PublishersThatDisagreeAreToldWithoutTheirNames) {
+  // As `rosbag filter` leaves them; and what is noisy, or vibrates, is one publisher's.
+  RecordingJudge::Edge* edge = judge_.At("base_link", "strut");
+  const int somebody = judge_.Publisher("somebody");
+  for (int i = 0; i <= 500; ++i) {
+    judge_.AddSaid(edge, somebody, kStart + i * kPeriod, At(0.03 * std::sin(0.1 * i)));
+    judge_.AddSaid(edge, somebody, kStart + i * kPeriod + 6'000'000, At(0));
+  }
+  const Findings findings = judge_.Report({"base_link"}, "base_link");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "two_publishers");
+  EXPECT_NE(findings[0].remedy.find("do two publishers disagree?"), std::string::npos);
+  EXPECT_NEAR(findings[0].size, 0.03, 0.003);
+}
+
+TEST_F(RecordingJudgeTest, NoiseAndVibrationAreOnePublishers) {
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(0, 0.02);
+  RecordingJudge::Edge* noisy = judge_.At("base_link", "strut");
+  RecordingJudge::Edge* shaken = judge_.At("odom", "base_link");
+  const int somebody = judge_.Publisher("somebody");
+  for (int i = 0; i <= 2000; ++i) {
+    judge_.AddSaid(noisy, somebody, kStart + i * kPeriod, At(normal(random)));
+    judge_.AddSaid(shaken, somebody, kStart + i * kPeriod, At(0.1 * std::sin(2.2 * i)));
+  }
+  EXPECT_TRUE(judge_.Report({"base_link"}, "base_link").empty());
 }
 
 TEST_F(RecordingJudgeTest, PublishersThatAgreeAreFine) {

@@ -1,6 +1,8 @@
-// Whether several publishers say different things about one edge of the tree.
+// Whether several publishers say different things about one edge of the tree, also where they have
+// one name, or the recording tells none.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -24,6 +26,9 @@ class PublisherJudge {
   void Restart() { publishers_.clear(); }
 
   const Conflict& conflict() const { return conflict_; }
+  /// Of one publisher whose samples go to and fro between two courses: `count` and how far these
+  /// are apart at most. A motion that is real does not do so with each sample.
+  const Conflict& two_courses() const { return two_courses_; }
 
  private:
   struct Sample {
@@ -33,12 +38,16 @@ class PublisherJudge {
   struct Publisher {
     int number = 0;
     Sample before, last;
+    std::array<Sample, 5> recent;  // the last ones, at `count` modulo their number
+    std::uint64_t count = 0;
+    std::uint64_t to_and_fro = 0;  // how many in a row
   };
 
   void Compare(const Publisher& fast, const Publisher& slow);
+  void LookForTwoCourses(Publisher* publisher);
 
   std::vector<Publisher> publishers_;
-  Conflict conflict_;
+  Conflict conflict_, two_courses_;
 };
 
 }  // namespace cosserat_cable
