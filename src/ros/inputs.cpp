@@ -109,8 +109,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   }
   // What could not be used may be why.
   if (!links.Missing().empty())
-    for (const auto& [kind, count] : links.warnings().counts())
-      problems->Add(all, kind + ": " + std::to_string(count));
+    for (const std::string& warning : links.warnings().Sentences()) problems->Add(all, warning);
   // How it may be mended, or what is likely to be missed.
   survey.notes = links.Advice();
   for (std::string& topic : UnreadMotion(bags.contents(), bags.topics()))
@@ -118,7 +117,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (!links.Missing().empty())
     for (const std::string& advice : survey.notes) problems->Add(all, advice);
   survey.edges = links.edges();
-  survey.warnings = links.warnings().counts();
+  survey.warnings = links.warnings().Sentences();
   survey.gaps = links.gap_count();
   survey.world = links.SmoothWorld();
   if (survey.world != links.world()) survey.topmost = links.world();
@@ -157,7 +156,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     done = known();
   }
   if (!done) {
-    problems->Add(all, "there is no time at which all links are known together");
+    for (std::string& reason : links.Apart()) problems->Add(all, std::move(reason));
     return;
   }
   CheckFirstInstant(again, survey.first_step, *inputs, &survey, problems);

@@ -92,9 +92,7 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
         static_cast<unsigned long long>(edge.gaps), edge.moves ? "" : ", does not move");
     text << line;
   }
-  for (const auto& [kind, count] : survey.warnings) {
-    text << "warning: " << kind << ": " << count << "\n";
-  }
+  for (const std::string& warning : survey.warnings) text << "warning: " << warning << "\n";
   for (const Finding& finding : survey.findings) {
     text << "warning: " << finding.ToString() << "\n";
   }

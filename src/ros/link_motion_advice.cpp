@@ -1,6 +1,8 @@
 // What LinkMotion knows of names and stamps that do not fit.
 #include <algorithm>
+#include <limits>
 
+#include "cosserat_cable/input/problems.h"
 #include "cosserat_cable/ros/conversions.h"
 #include "cosserat_cable/ros/link_motion.h"
 
@@ -58,6 +60,24 @@ std::string LinkMotion::UnstampedText(const Unstamped& unstamped) const {
          (unstamped.samples == 1 ? " has no stamp: " : " have no stamp: ") + kUseRecordTimes;
 }
 
+std::vector<std::string> LinkMotion::Apart() const {
+  std::vector<std::string> sentences;
+  std::int64_t first_end = std::numeric_limits<std::int64_t>::max(), last_begin = 0;
+  for (const auto& [child, edge] : edges_) {
+    if (!edge.is_followed || edge.samples == 0) continue;
+    sentences.push_back(edge.parent + " -> " + child + " by " + ToString(edge.source) +
+                        " is recorded from " + StampText(edge.first) + " to " +
+                        StampText(edge.last));
+    first_end = std::min(first_end, edge.last);
+    last_begin = std::max(last_begin, edge.first);
+  }
+  std::string reason = "there is no time at which all links are known together";
+  if (first_end < last_begin)
+    reason += std::string(": are stamps of two clocks in it? Then ") + kUseRecordTimes;
+  sentences.insert(sentences.begin(), reason);
+  return sentences;
+}
+
 std::vector<std::string> LinkMotion::Advice() const {
   std::vector<std::string> sentences;
   std::map<Source, std::uint64_t> partly;
@@ -85,6 +105,16 @@ std::vector<std::string> LinkMotion::Advice() const {
   }
   for (const std::string& name : unknown_joints_)
     for (const auto& [joint, model] : joints_) CountPrefixes(WithoutSlash(name), joint, &joints);
+  std::vector<std::string> own;
+  for (const auto& [joint, model] : joints_)
+    if (edges_.count(model->child) == 0) own.push_back(joint);
+  for (const std::string& name : unknown_joints_) {
+    const std::string meant = NearestWord(WithoutSlash(name), own);
+    if (!meant.empty())
+      sentences.push_back("joint '" + name +
+                          "' is recorded, and not in the URDF: is it the URDF's '" + meant +
+                          "'? Give it one name in both");
+  }
   for (const std::string& sentence :
        {PrefixSentence(frames, "frames"), PrefixSentence(joints, "joints")})
     if (!sentence.empty()) sentences.push_back(sentence);

@@ -215,7 +215,50 @@ class Options(unittest.TestCase):
         # Viewers know the frame by the name that was recorded.
         self.assertEqual(self.apex().header.frame_id, 'rover1/chassis')
 
+    def test_names_that_nearly_fit_are_named(self):
+        bag = self.path('in.bag')
+        with rosbag.Bag(bag, 'w') as out:
+            for i in range(101):
+                message = JointState(name=['Rocker_Joint'], position=[0.0])
+                message.header.stamp = rospy.Time.from_sec(10 + i / 100.0)
+                out.write('/joint_states', message, message.header.stamp)
+        code, text = self.check(bag)
+        self.assertEqual(code, 2, text)
+        self.assertIn("joint not in the URDF: 101 (first: 'Rocker_Joint')", text)
+        self.assertIn("is it the URDF's 'rocker_joint'?", text)
+
+    def test_a_second_parent_is_named_and_counted(self):
+        bag = self.record()
+        with rosbag.Bag(bag, 'a') as more:
+            edge = TransformStamped(child_frame_id='chassis')
+            edge.header.stamp = rospy.Time(10.5)
+            edge.header.frame_id = 'map'
+            edge.transform.rotation.w = 1.0
+            more.write('/tf', TFMessage([edge]), rospy.Time(10.5))
+        code, text = self.check(bag)
+        self.assertEqual(code, 0, text)
+        self.assertIn("frame 'chassis' has two parents: 1 (first: 'odom' by /tf is kept, 'map' by "
+                      '/tf is ignored)', text)
+        self.assertIn('ok, but for 1 warning', text)
+
     # ---- Stamps.
+
+    def test_stamps_of_two_clocks_are_told(self):
+        bag = self.record(tf=None)
+        with rosbag.Bag(bag, 'a') as more:
+            for i in range(101):
+                edge = TransformStamped(child_frame_id='chassis')
+                edge.header.stamp = rospy.Time.from_sec(1.7e9 + i / 100.0)
+                edge.header.frame_id = 'odom'
+                edge.transform.translation.x = 0.01 * i
+                edge.transform.rotation.w = 1.0
+                more.write('/tf', TFMessage([edge]), rospy.Time.from_sec(10 + i / 100.0))
+        code, text = self.check(bag)
+        self.assertEqual(code, 2, text)
+        self.assertIn('stamps of two clocks', text)
+        self.assertIn('odom -> chassis by /tf is recorded from 1700000000.000 s', text)
+        code, text = self.check(bag, '--use-record-times')
+        self.assertEqual(code, 0, text)
 
     def test_record_times_are_offered_and_used(self):
         bag = self.record(stamped=False, tf=None)

@@ -28,7 +28,7 @@ struct BagSurvey {
   std::string world;               ///< the inertial frame
   bool world_is_recorded = false;  ///< otherwise the URDF's root, for want of a frame above it
   std::map<std::string, LinkMotion::Edge> edges;
-  std::map<std::string, std::uint64_t> warnings;
+  std::vector<std::string> warnings;  ///< kinds of samples that do not count, with how many
   std::uint64_t gaps = 0;
   std::int64_t first_step = 0;     ///< when all links are known [ns]
   std::vector<double> chords;      ///< between each cable's clamps at that time [m]

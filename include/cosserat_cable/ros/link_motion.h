@@ -89,6 +89,10 @@ class LinkMotion {
   /// Why links cannot be followed from world() yet, one sentence each. Empty: all edges are driven.
   std::vector<std::string> Missing() const;
 
+  /// Why there is no time at which all links are known, where none is missing: which edges were
+  /// recorded when.
+  std::vector<std::string> Apart() const;
+
   /// The first time at which all links are known, and the time up to which their motion is final
   /// [ns]. False where some edge has no sample yet. Where nothing moves at all: the range is that
   /// of the samples seen.

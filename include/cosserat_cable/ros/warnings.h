@@ -14,11 +14,14 @@ class Warnings {
   void Count(const std::string& kind, const std::string& detail = "");
 
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
+  /// A sentence for each kind: how many there were, and the first one's detail.
+  std::vector<std::string> Sentences() const;
   /// Sentences for the kinds that are new since the last call.
   std::vector<std::string> TakeNew();
 
  private:
   std::map<std::string, std::uint64_t> counts_;
+  std::map<std::string, std::string> details_;  // of the first of each kind
   std::vector<std::string> fresh_;
 };
 
