@@ -99,7 +99,8 @@ SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::Vec
   if (!experiment_.quasi_static() && (begins || experiment_.a.motion || experiment_.b.motion)) {
     const double late = period_ > 0 ? kLatePeriods * period_ : kFirstPart * duration;
     earliest_ = -std::min(late, 0.5 * duration);
-    latest_ = 0.5 * duration;
+    latest_ = std::max(0.5 * duration,
+                       duration - std::max(kFirstPeriods * period_, kFirstPart * duration));
   }
   if (experiment_.quasi_static()) {
     grid_ = t;
