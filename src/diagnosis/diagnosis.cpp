@@ -47,12 +47,15 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
   const std::vector<Screened> screened = work.ScreenAround(work.baseline(), "screening");
   work.FitCandidates(screened, nullptr, kMostCandidates, 0.25);
   work.FitFromSimpler();
+  work.Continue(0.4);
+  work.RefineBest();
   if (work.Judged().verdict == Verdict::kUnexplained) {
     // Far from the plain model its derivatives promise little of what is right.
     work.FitCandidates(screened, nullptr, kAll, 0.4);
     work.FitFromSimpler();
+    work.Continue(0.6);
+    work.RefineBest();
   }
-  work.RefineBest();
   const Judgement first = work.Judged();
   if (work.Stopping()) return work.Report();
   if (first.verdict == Verdict::kUnexplained) {
@@ -60,6 +63,7 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
       work.FitCandidates(work.ScreenAround(work.model(single), "screening of pairs"),
                          &work.model(single), kMostPairs, 0.6);
     work.FitParts(work.Judged());
+    work.Continue(0.7);
     work.RefineBest();
   } else if (first.verdict == Verdict::kNamed && !work.LeavesNothing(first.best)) {
     std::vector<Screened> second = work.ScreenAround(work.model(first.best), "screening of pairs");

@@ -9,15 +9,13 @@
 namespace cosserat_cable {
 namespace {
 
-// Iterations of a candidate's fit; what has not come near by then is not the answer.
-constexpr int kIterations = 20;
+// Iterations of a candidate's fit; and of the few best ones that had not ended by then.
+constexpr int kIterations = 8, kMoreIterations = 20, kContinued = 3;
 // Part of a cause's best promise above which another start of it is fitted too, and how many.
 constexpr double kAsPromising = 0.6;
 constexpr int kStarts = 2;
-// A rival of a cause that leaves just noise: the part of the misfit that it must promise, and the
-// iterations that it gets.
+// The part of the misfit that a rival of a cause that leaves just noise must promise.
 constexpr double kRivalPromise = 0.03;
-constexpr int kRivalIterations = 12;
 // Of the noise's sum of squares: too little for a cause.
 constexpr double kNothing = 0.02;
 // A promise, in noise variances, that chance makes among all hypotheses.
@@ -144,7 +142,7 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   fitted->trials = trials;
   fitted->set = WithTrials(set_, trials);
   FitProblemOptions options = ProblemOptions();
-  options.max_iterations = IsExplained() ? kRivalIterations : kIterations;
+  options.max_iterations = kIterations;
   options.progress = [this](const std::string&) { return !Stopping(); };
   Problems problems;
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
@@ -228,6 +226,26 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
   FindCorrelations();
 }
 
+/// The fits that promise to come nearest go on to their ends.
+void DiagnosisWork::Continue(double part) {
+  std::vector<FittedTrial*> open;
+  for (auto& model : models_)
+    if (!model->trials.empty() && !model->point.at_minimum) open.push_back(model.get());
+  std::sort(open.begin(), open.end(), [](const FittedTrial* a, const FittedTrial* b) {
+    return a->point.cost < b->point.cost;
+  });
+  if (open.size() > kContinued) open.resize(kContinued);
+  for (FittedTrial* model : open) {
+    if (OutOfTime() || !Tell("going on with " + model->causes().front(), part)) return;
+    const SimulationCount before = model->problem->count();
+    model->problem->SetMaxIterations(kMoreIterations);
+    FitPoint point = model->problem->FitFrom(model->point);
+    Charge("candidates", model->problem->count() - before);
+    if (point.ok && !point.interrupted) model->point = std::move(point);
+  }
+  FindCorrelations();
+}
+
 void DiagnosisWork::FitFromSimpler() {
   for (const Cause& cause : Causes()) {
     if (cause.from_simpler.empty() || IsExplained(cause.name, nullptr)) continue;
@@ -289,6 +307,8 @@ void DiagnosisWork::RefineBest() {
   for (FittedTrial* model : order) {
     if (refined++ == kRefined || OutOfTime() || !Tell("finer steps", 0.75)) break;
     if (model->trials.empty() || model->point.cost > kMuchLeft * model->point.samples) continue;
+    if (model->refined) continue;
+    model->refined = true;
     const SimulationCount before = model->problem->count();
     model->problem->Refine(model->point);
     FitPoint point = model->problem->FitFrom(model->point);

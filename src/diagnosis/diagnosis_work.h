@@ -22,6 +22,7 @@ struct FittedTrial {
   MeasurementSet set;
   std::unique_ptr<FitProblem> problem;
   FitPoint point;
+  bool refined = false;  ///< simulated as finely as what it leaves asks
 
   std::vector<std::string> causes() const;
   int parameters() const;
@@ -39,6 +40,7 @@ class DiagnosisWork {
   /// Fits the most promising causes, one at a time; with `beside`, together with its causes.
   void FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside, int most,
                      double part);
+  void Continue(double part);
   /// Fits causes that contain a simpler one from where that one was found.
   void FitFromSimpler();
   /// Fits what the best model is made of by itself, where that is still to do.

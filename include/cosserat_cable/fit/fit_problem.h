@@ -75,6 +75,9 @@ class FitProblem {
   /// Found anew at a point: as fine as the larger of the noise and what is left there asks.
   void Refine(const FitPoint& at);
 
+  /// Of warm fits from now on; 0: as many as it takes.
+  void SetMaxIterations(int count) { options_.max_iterations = count; }
+
   /// From the set's own values and points around them.
   FitPoint FitFromAfar();
   /// From another problem's point: unknowns of the same name start there, `also` by name, the
