@@ -84,6 +84,7 @@ Records OfLastPart(const FittedModel& model, FitProblemOptions options) {
   FitProblem fit(first, options, &problems);
   FitProblem whole(model.set, options, &problems);
   if (!problems.empty()) return {Eigen::MatrixXd()};
+  fit.ShareShapes(model.problem);
   const FitPoint found = fit.FitFrom(model.point);
   if (!found.ok) return {Eigen::MatrixXd()};
   whole.ShareSteps(model.problem);

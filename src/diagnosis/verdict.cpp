@@ -13,7 +13,7 @@ namespace {
 // were tried; and for each parameter beyond.
 constexpr double kSignificant = 25, kPerParameter = 4;
 // Standard errors of a paired difference.
-constexpr double kBeyondError = 3;
+constexpr double kBeyondError = 3, kBeyondErrorHeldOut = 2;
 // A law that is right in kind explains this part of the misfit at least, and leaves so many times
 // the noise's variance at most.
 constexpr double kExplained = 0.97, kMostLeft = 3;
@@ -64,7 +64,11 @@ class Court {
     return kSignificant + kPerParameter * (more - 1);
   }
   bool Beats(int better, int worse) const {
-    return difference_(worse, better).value > Needed(worse, better);
+    if (!(difference_(worse, better).value > Needed(worse, better))) return false;
+    if (worse != 0 || !Of(0).adequacy.adequate) return true;
+    // What is added to a plain model that leaves as good as noise must predict better, too.
+    const Difference predicted = heldout_(worse, better);
+    return predicted.value > kBeyondErrorHeldOut * predicted.se;
   }
   /// Whether a larger model is worth its more: where the simpler one with a cause leaves as good as
   /// noise, the rest may be what any law is wrong by in form, and it must show in predictions too.

@@ -190,6 +190,7 @@ Eigen::MatrixXd FitProblem::Predict(const FitPoint& at, int experiment) const {
   FitProblem problem(alone, options, &problems);
   if (!problems.empty()) return {};
   problem.model_->TakeStepsFrom(*model_, experiment);
+  problem.unknowns_->ShareShapes(*unknowns_, experiment);
   Eigen::VectorXd values = problem.StartFrom(at, {});
   FitOptions fit;
   bool own = false;

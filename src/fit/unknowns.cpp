@@ -287,6 +287,22 @@ void Unknowns::AddSwing(int e) {
   }
 }
 
+void Unknowns::ShareShapes(const Unknowns& other, int experiment) {
+  for (std::size_t e = 0; e < shapes_.size(); ++e) {
+    const std::size_t there = experiment >= 0 ? static_cast<std::size_t>(experiment) : e;
+    if (there >= other.shapes_.size() || shapes_[e].size() != other.shapes_[there].size()) continue;
+    shapes_[e] = other.shapes_[there];
+    for (Unknown& own : all_) {
+      const bool swings = own.kind == Unknown::Kind::kSwing || own.kind == Unknown::Kind::kSpeed;
+      if (!swings || own.experiment != static_cast<int>(e)) continue;
+      const int same = other.Find(own.name);
+      if (same < 0) continue;
+      own.prior_sd = other.all_[same].prior_sd;
+      own.scale = other.all_[same].scale;
+    }
+  }
+}
+
 Eigen::VectorXd Unknowns::StartValues() const {
   Eigen::VectorXd values(size());
   for (int i = 0; i < size(); ++i) values[i] = all_[i].start;

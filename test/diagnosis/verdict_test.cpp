@@ -110,6 +110,18 @@ TEST(VerdictTest, TwoCausesAreNamedOnlyWhereEachIsNeeded) {
   EXPECT_EQ(JudgeWith(spare).best, 1);
 }
 
+TEST(VerdictTest, WhatPredictsNoBetterIsNotBesideNoise) {
+  const std::vector<Contender> contenders = {Leaves({}, 1.05, 0), Leaves({"sensor"}, 0.97, 3)};
+  EXPECT_EQ(JudgeWith(contenders).verdict, Verdict::kNamed);
+  const DifferenceBetween fitted = [&](int worse, int better) {
+    return Difference{contenders[worse].adequacy.chi2 - contenders[better].adequacy.chi2, 1.0};
+  };
+  const DifferenceBetween predicted = [&](int worse, int better) {
+    return Difference{-fitted(worse, better).value, 1.0};
+  };
+  EXPECT_EQ(Judge(contenders, fitted, predicted).verdict, Verdict::kNone);
+}
+
 TEST(VerdictTest, ContainingIsByCauseAndByPart) {
   EXPECT_TRUE(Contains({"clamp_friction"}, {"clamp_compliance"}));
   EXPECT_TRUE(Contains({"air_drag", "clamp_friction"}, {"air_drag", "clamp_compliance"}));

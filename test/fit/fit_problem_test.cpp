@@ -123,6 +123,45 @@ TEST(FitProblemTest, HeldUnknownsStay) {
   EXPECT_LT(found.cost, start.cost);
 }
 
+// A cable that bends alike in all directions has pairs of modes, of which a slightly different one
+// has others: amplitudes mean the same only in the same shapes.
+TEST(FitProblemTest, AnUnknownStartMeansTheSameWithAnExtension) {
+  MeasurementSet set = RingDowns(0);
+  set.experiments.resize(1);
+  Experiment& experiment = set.experiments[0];
+  experiment.start = StartCondition();
+  experiment.start.kind = StartCondition::Kind::kUnknown;
+  Channel across = experiment.channels[0];
+  across.column = "across";
+  across.axis = 1;
+  experiment.channels.push_back(across);
+  experiment.record.values.conservativeResize(Eigen::NoChange, 2);
+  experiment.record.values.col(1) = 0.5 * experiment.record.values.col(0);
+  Problems problems;
+  FitProblem plain(set, {}, &problems);
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  Eigen::VectorXd values = plain.unknowns().StartValues();
+  int swings = 0;
+  for (int i = 0; i < values.size(); ++i) {
+    const Unknown& u = plain.unknowns().all()[static_cast<std::size_t>(i)];
+    if (u.kind == Unknown::Kind::kSwing) values[i] = ++swings % 2 ? u.prior_sd : 0.3 * u.prior_sd;
+  }
+  ASSERT_GE(swings, 2);
+  const FitPoint found = plain.At(values);
+  ASSERT_TRUE(found.ok) << found.message;
+  MeasurementSet extended_set = set;
+  extended_set.cable = Keys("[EI, eta_EI, extensions.anisotropy.difference]",
+                            "extensions: {anisotropy: {difference: 1.0e-6, roll: 0.3}}");
+  FitProblem extended(extended_set, {}, &problems);
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  extended.ShareSteps(plain);
+  const FitPoint there = extended.At(extended.StartFrom(found, {}));
+  ASSERT_TRUE(there.ok) << there.message;
+  // What so faint an anisotropy does, beside the swing.
+  constexpr double kSame = 1e-4;
+  EXPECT_LT((there.simulated[0] - found.simulated[0]).norm(), kSame * found.simulated[0].norm());
+}
+
 // The variables in which a fit moves: one at the scale, there and back, with the slope between.
 TEST(FitVariablesTest, AreOneAtTheScaleAndHaveTheirSlope) {
   constexpr double kStep = 1e-6, kTolerance = 1e-6;

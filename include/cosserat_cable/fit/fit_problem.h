@@ -70,8 +70,13 @@ class FitProblem {
   const RecordModel& model() const { return *model_; }
   SimulationCount count() const { return model_->count(); }
 
-  /// What steps in space and time make of the records is taken from a problem of the same set.
-  void ShareSteps(const FitProblem& other) { model_->TakeStepsFrom(*other.model_); }
+  /// What steps in space and time make of the records is taken from a problem of the same set, and
+  /// so are the shapes of unknown starts.
+  void ShareSteps(const FitProblem& other) {
+    model_->TakeStepsFrom(*other.model_);
+    ShareShapes(other);
+  }
+  void ShareShapes(const FitProblem& other) { unknowns_->ShareShapes(*other.unknowns_); }
   /// Found anew at a point: as fine as the larger of the noise and what is left there asks.
   void Refine(const FitPoint& at);
 

@@ -83,6 +83,11 @@ class Unknowns {
   int size() const { return static_cast<int>(all_.size()); }
   const MeasurementSet& set() const { return set_; }
 
+  /// Unknown starts are looked for in the same shapes as another's: of two modes of one frequency,
+  /// each set of unknowns may have other ones. Where `experiment` is not negative, the only
+  /// experiment here is that one of the other's. What has other numbers of shapes keeps its own.
+  void ShareShapes(const Unknowns& other, int experiment = -1);
+
   Eigen::VectorXd StartValues() const;
   /// Whether the unknown can have any effect on the experiment.
   bool Concerns(int unknown, int experiment) const;
