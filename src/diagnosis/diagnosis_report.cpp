@@ -41,6 +41,15 @@ double NoiseFloor(const MeasurementSet& set, const NoiseLevels& levels) {
   return samples > 0 ? std::sqrt(squares / samples) : 0;
 }
 
+/// The last rows of each, as many as `like` has: what was begun with its first samples is judged on
+/// the others.
+Records EndsOf(const Records& all, const Records& like) {
+  Records ends;
+  for (std::size_t e = 0; e < like.size(); ++e)
+    ends.push_back(all[e].bottomRows(std::min(all[e].rows(), like[e].rows())));
+  return ends;
+}
+
 }  // namespace
 
 std::map<std::string, FoundParameter> DiagnosisWork::FoundIn(const FittedTrial& model) const {
@@ -67,9 +76,15 @@ std::map<std::string, FoundParameter> DiagnosisWork::FoundIn(const FittedTrial& 
   return found;
 }
 
+Records DiagnosisWork::HeldOut(const FittedTrial& of) const {
+  FitProblemOptions options = ProblemOptions();
+  options.stop = [this] { return Stopping(); };
+  options.max_iterations = kHeldOutIterations;
+  return ExactHeldOut({of.set, of.point, *of.problem}, options);
+}
+
 void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
   const Adequacy plain = AdequacyOf(baseline().point, noise_);
-  const Records plain_heldout = LinearisedHeldOut(baseline().point);
   const Records best_heldout = LinearisedHeldOut(model(judgement.best).point);
   for (int i = 1; i < static_cast<int>(models_.size()); ++i) {
     const FittedTrial& of = model(i);
@@ -92,7 +107,8 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
     const Difference heldout = DifferenceOf(own, best_heldout, correlations_);
     candidate.heldout = heldout.value;
     candidate.heldout_se = heldout.se;
-    if (const auto gain = GainOf(plain_heldout, own)) candidate.gain = gain->value;
+    if (const auto gain = GainOf(plain_heldout_, EndsOf(own, plain_heldout_)))
+      candidate.gain = gain->value;
     candidate.rejected = judgement.rejected[static_cast<std::size_t>(i)];
     candidate.found = FoundIn(of);
     diagnosis_.candidates.push_back(std::move(candidate));
@@ -122,13 +138,7 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
 }
 
 void DiagnosisWork::ReportGain(const Judgement& judgement) {
-  FitProblemOptions options = ProblemOptions();
-  options.stop = [this] { return Stopping(); };
-  options.max_iterations = kHeldOutIterations;
-  const auto held_out = [&](const FittedTrial& of) {
-    return ExactHeldOut({of.set, of.point, *of.problem}, options);
-  };
-  const Records plain = held_out(baseline());
+  const Records& plain = plain_heldout_;
   double squares = 0, samples = 0;
   for (const Eigen::MatrixXd& one : plain) {
     squares += one.squaredNorm();
@@ -136,7 +146,7 @@ void DiagnosisWork::ReportGain(const Judgement& judgement) {
   }
   if (samples > 0) diagnosis_.rms_baseline = std::sqrt(squares / samples) * diagnosis_.noise_floor;
   if (judgement.best != 0 && diagnosis_.verdict == Verdict::kNamed) {
-    diagnosis_.gain = GainOf(plain, held_out(model(judgement.best)));
+    diagnosis_.gain = GainOf(plain, HeldOut(model(judgement.best)));
     if (diagnosis_.gain) {
       diagnosis_.gain->rms_baseline *= diagnosis_.noise_floor;
       diagnosis_.gain->rms_extended *= diagnosis_.noise_floor;
@@ -252,6 +262,7 @@ Diagnosis DiagnosisWork::Report() {
     diagnosis_.warnings.push_back(
         "the set has one experiment: its last part was predicted from its first, which shows less "
         "than a record of its own would");
+  if (!Stopping()) plain_heldout_ = HeldOut(baseline());
   ReportCandidates(judgement);
   if (!Stopping()) ReportGain(judgement);
   ReportRecords(judgement);

@@ -74,6 +74,7 @@ class DiagnosisWork {
   bool IsExplained(const std::string& name, const FittedTrial* beside) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
   void FindCorrelations();
+  Records HeldOut(const FittedTrial& of) const;
   void ReportCandidates(const Judgement& judgement);
   void ReportGain(const Judgement& judgement);
   void ReportRecords(const Judgement& judgement);
@@ -90,6 +91,7 @@ class DiagnosisWork {
   std::set<std::string> begun_from_simpler_;          // and from a simpler one
   std::map<std::string, std::string> failures_;       // by cause, why it could not be fitted
   Correlations correlations_;
+  Records plain_heldout_;  // what the plain model leaves of records that its fit had not seen
   Diagnosis diagnosis_;
   std::atomic<bool> stopped_{false};
   double farthest_ = 0;
