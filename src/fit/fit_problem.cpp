@@ -34,11 +34,11 @@ SetNoise NoiseOf(const MeasurementSet& set, const Records& simulated) {
       const NoiseLevel level = e < simulated.size()
                                    ? LevelOf(experiment, c, usable.col(c), simulated[e].col(c))
                                    : LevelOf(experiment, c, usable.col(c));
-      const bool known = level.source != NoiseLevel::Source::kUnknown;
+      // An upper bound serves: what is more than that is no noise.
+      const bool known = level.source != NoiseLevel::Source::kUnknown || level.sd > 0;
       noise.known = noise.known && known;
-      const double sd = known || level.sd > 0
-                            ? level.sd
-                            : NoiseOfSmooth(experiment.record.values.col(c), usable.col(c));
+      const double sd =
+          known ? level.sd : NoiseOfSmooth(experiment.record.values.col(c), usable.col(c));
       levels[c] = std::max(sd, SmallestNoise(experiment, c));
       noise.sources.back().push_back(level);
     }

@@ -1,6 +1,7 @@
 #include "channel_slips.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -499,7 +500,13 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
       points.front().push_back({estimate.unknown.name, estimate.value});
   if (!options.guesses.empty()) points.push_back(options.guesses);
   std::vector<ChannelSlip> slips;
-  for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords); ++k) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto ended = [&] {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    return (options.stop && options.stop()) ||
+           (options.time_limit > 0 && fit.seconds + taken.count() > options.time_limit);
+  };
+  for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords) && !ended(); ++k) {
     const std::size_t e = suspects[k].second;
     if (options.progress &&
         !options.progress("looking for slips in " + set.experiments[e].name, 0.95))

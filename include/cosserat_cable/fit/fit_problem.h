@@ -37,7 +37,7 @@ struct FitProblemOptions {
 struct SetNoise {
   NoiseLevels levels;
   std::vector<std::vector<NoiseLevel>> sources;
-  bool known = true;  ///< false: a channel's level is unknown, and its value an upper bound
+  bool known = true;  ///< false: of a channel not even an upper bound is known
 };
 SetNoise NoiseOf(const MeasurementSet& set, const Records& simulated = {});
 
