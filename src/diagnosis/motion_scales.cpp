@@ -5,18 +5,16 @@
 
 #include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/fit/damage.h"
+#include "probe.h"
 
 namespace cosserat_cable {
 namespace {
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kStep = 2e-3;  // [s] enough to see how large a motion is
-constexpr int kElements = 20;
 
-/// The experiment with the bending moments at its clamps, in their own frames, for channels.
-Experiment WithClampMoments(const Experiment& experiment) {
-  Experiment probed = experiment;
-  probed.channels.clear();
+/// The moments at the experiment's clamps, in clamp a's frame.
+std::vector<Channel> ClampMoments(const Experiment& experiment) {
+  std::vector<Channel> channels;
   for (const ClampSide clamp : {ClampSide::kA, ClampSide::kB}) {
     if (clamp == ClampSide::kB && experiment.b.kind != EndCondition::Kind::kClamp) continue;
     for (const int axis : {0, 1, 2}) {
@@ -26,13 +24,10 @@ Experiment WithClampMoments(const Experiment& experiment) {
       channel.clamp = clamp;
       channel.axis = axis;
       channel.in_frame_a = true;
-      probed.channels.push_back(channel);
+      channels.push_back(channel);
     }
   }
-  probed.record.values =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(experiment.record.t.size()),
-                            static_cast<Eigen::Index>(probed.channels.size()));
-  return probed;
+  return channels;
 }
 
 }  // namespace
@@ -88,12 +83,8 @@ MotionScales FindMotionScales(const FitProblem& problem, const FitPoint& at) {
     scales.shortest = scales.shortest > 0 ? std::min(scales.shortest, specimen.cable.length)
                                           : specimen.cable.length;
     scales.period = std::max(scales.period, SlowestPeriod(experiments[e], specimen.cable));
-    SimulationOptions options;
-    options.dt = kStep;
-    options.elements = kElements;
-    const SimulatedRecord moments =
-        SimulateExperiment(WithClampMoments(experiments[e]), {specimen}, options).front();
-    if (!moments.ok || moments.values.rows() == 0) continue;
+    const SimulatedRecord moments = Probe(experiments[e], specimen, ClampMoments(experiments[e]));
+    if (!moments.ok) continue;
     // Twist is the small part of a moment across the frame; its change counts with the rest.
     const Eigen::RowVectorXd mean = moments.values.colwise().mean();
     for (Eigen::Index first = 0; first < moments.values.cols(); first += 3)

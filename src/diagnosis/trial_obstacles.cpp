@@ -6,6 +6,8 @@
 #include <cmath>
 #include <optional>
 
+#include "probe.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -13,8 +15,6 @@ using Eigen::Vector3d;
 using Role = HypothesisNumber::Role;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr double kStep = 2e-3;  // [s] enough to see where the cable comes
-constexpr int kElements = 20;
 constexpr int kStations = 10;   // along the cable
 constexpr int kDirections = 8;  // of planes, around it
 // How far into the motion, from its end to its middle.
@@ -33,8 +33,7 @@ struct Sweep {
 };
 
 std::optional<Sweep> SweepOf(const Experiment& experiment, const Specimen& specimen) {
-  Experiment probed = experiment;
-  probed.channels.clear();
+  std::vector<Channel> channels;
   for (int k = 1; k <= kStations; ++k)
     for (const int axis : {0, 1, 2}) {
       Channel channel;
@@ -42,15 +41,9 @@ std::optional<Sweep> SweepOf(const Experiment& experiment, const Specimen& speci
       channel.s = specimen.cable.length * k / kStations;
       channel.axis = axis;
       channel.in_frame_a = true;
-      probed.channels.push_back(channel);
+      channels.push_back(channel);
     }
-  probed.record.values =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(experiment.record.t.size()),
-                            static_cast<Eigen::Index>(probed.channels.size()));
-  SimulationOptions options;
-  options.dt = kStep;
-  options.elements = kElements;
-  const SimulatedRecord found = SimulateExperiment(probed, {specimen}, options).front();
+  const SimulatedRecord found = Probe(experiment, specimen, channels);
   if (!found.ok || found.values.rows() < 2) return std::nullopt;
   return Sweep{found.values, specimen.cable.diameter};
 }
