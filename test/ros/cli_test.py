@@ -1,6 +1,5 @@
 #!/usr/bin/python3
-"""Bad input to cable_check, cable_replay and cable_modes: every problem at once, exit 2, and no file
-written."""
+"""Bad input to cable_check and cable_replay: every problem at once, exit 2, and no file written."""
 import json
 import math
 import os
@@ -9,7 +8,6 @@ import shutil
 import signal
 import subprocess
 import sys
-import tempfile
 import time
 import unittest
 
@@ -21,21 +19,8 @@ from sensor_msgs.msg import JointState
 from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
-SOURCE = os.environ['COSSERAT_CABLE_SOURCE_DIR']
-TOOLS = os.environ['COSSERAT_CABLE_TOOLS_DIR']
-SWEEP_URDF = os.path.join(SOURCE, 'urdf', 'sweep.urdf')
-SWEEP_YAML = os.path.join(SOURCE, 'config', 'cables', 'sweep.yaml')
-SWEEP_BAG = os.path.join(SOURCE, 'test', 'data', 'sweep.bag')
-CAR_URDF = os.path.join(SOURCE, 'urdf', 'car.urdf')
-CAR_YAML = os.path.join(SOURCE, 'config', 'cables', 'car.yaml')
-RIDE_BAG = os.path.join(SOURCE, 'test', 'data', 'ride.bag')
-
-
-def run(tool, *arguments, timeout=300):
-    """Exit code and all text of a tool."""
-    done = subprocess.run([os.path.join(TOOLS, tool), *arguments], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True, timeout=timeout)
-    return done.returncode, done.stdout
+from command_line import (CAR_URDF, CAR_YAML, CommandLine, RIDE_BAG, SWEEP_BAG, SWEEP_URDF, SWEEP_YAML,
+                          TOOLS, run)
 
 
 def topics_of(path):
@@ -44,27 +29,7 @@ def topics_of(path):
                 for topic, info in bag.get_type_and_topic_info().topics.items()}
 
 
-class CommandLine(unittest.TestCase):
-
-    def setUp(self):
-        self.folder = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, self.folder)
-        self.output_folder = os.path.join(self.folder, 'output')
-        os.mkdir(self.output_folder)
-
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
-    def cables(self, *changes):
-        """The sweep's cable file with pieces of its text replaced."""
-        with open(SWEEP_YAML) as source:
-            text = source.read()
-        for old, new in changes:
-            self.assertIn(old, text)
-            text = text.replace(old, new)
-        with open(self.path('cables.yaml'), 'w') as target:
-            target.write(text)
-        return self.path('cables.yaml')
+class Replays(CommandLine):
 
     def refused(self, *expected, vehicle=SWEEP_URDF, cables=SWEEP_YAML, bag=SWEEP_BAG):
         """Both tools exit with 2, say all of `expected`, and write nothing."""
@@ -563,74 +528,6 @@ cables:
         self.assertEqual(code, 4, text)
         self.assertIn('No space left', text)
         self.assertGreater(topics_of(output)['/cables/brake_hose_fl/apex'], 10)
-
-    # ---- Modes.
-
-    SPECIMEN = 'format: 1\ncable: {length: 0.2, diameter: 0.008, mass_per_length: 0.22, ' \
-               'EI: 0.012, GJ: 0.009, eta_EI: 1.2e-5, eta_GJ: 6.0e-6}\n'
-
-    def specimen(self):
-        with open(self.path('specimen.yaml'), 'w') as target:
-            target.write(self.SPECIMEN)
-        return self.path('specimen.yaml')
-
-    def test_modes_of_the_shipped_car(self):
-        folder = os.path.join(self.output_folder, 'modes')
-        code, text = run('cable_modes', CAR_YAML, '--vehicle', CAR_URDF, '--output', folder)
-        self.assertEqual(code, 0, text)
-        self.assertIn('8 cables in', text)
-        with open(os.path.join(folder, 'modes.json')) as file:
-            cables = json.load(file)['cables']
-        self.assertEqual(len(cables), 8)
-        for name, cable in cables.items():
-            modes = cable['modes']
-            self.assertEqual(len(modes), 6, name)
-            # What config/cables/car.yaml says of a U of these, to about a tenth.
-            first, second = (13, 27) if name.startswith('brake') else (5, 10)
-            self.assertEqual([m['direction'] for m in modes[:2]], ['out of plane', 'in plane'])
-            self.assertAlmostEqual(modes[0]['frequency'] / first, 1, delta=0.15)
-            self.assertAlmostEqual(modes[1]['frequency'] / second, 1, delta=0.15)
-            with open(os.path.join(folder, name + '.csv')) as file:
-                rows = file.read().splitlines()
-            self.assertEqual(len(rows), 42)  # header and nodes
-            self.assertEqual(len(rows[0].split(',')), 4 + 6 * 6)
-        code, text = run('cable_check', '--vehicle', CAR_URDF, '--cables',
-                         os.path.join(folder, 'cables.yaml'))
-        self.assertEqual(code, 0, text)
-
-    def test_modes_of_a_specimen(self):
-        numbers = self.path('numbers.json')
-        code, text = run('cable_modes', self.specimen(), '--a', '-0.05,0,0,0,0,0,1', '--b',
-                         '0.05,0,0,0,1,0,0', '--count', '3', '--json', numbers)
-        self.assertEqual(code, 0, text)
-        with open(numbers) as file:
-            modes = json.load(file)['cables']['cable']['modes']
-        # The paper's arch P1 at a tenth of its damping: resonance in its plane near 33 Hz.
-        self.assertEqual(modes[1]['direction'], 'in plane')
-        self.assertAlmostEqual(modes[1]['frequency'], 33.2, delta=0.3)
-
-    def test_modes_refuses_bad_input_all_at_once(self):
-        folder = os.path.join(self.output_folder, 'modes')
-        for words, arguments in (
-                (['vehicle: missing'], [SWEEP_YAML]),
-                (['a: missing', 'b: a cable with a free end'], [self.specimen(), '--b', 'free']),
-                (['a: got', 'b: got a quaternion', 'count: got 0'],
-                 [self.specimen(), '--a', '1,2', '--b', '0,0,0,0,0,0,2', '--count', '0']),
-                (['a: the vehicle'], [SWEEP_YAML, '--vehicle', SWEEP_URDF, '--a',
-                                      '0,0,0,0,0,0,1']),
-                (['apart'], [self.specimen(), '--a', '0,0,0,0,0,0,1', '--b', '1,0,0,0,0,0,1']),
-                (['lenght'], [self.cables(('length:', 'lenght:')), '--vehicle', SWEEP_URDF])):
-            code, text = run('cable_modes', *arguments, '--output', folder)
-            self.assertEqual(code, 2, text)
-            for word in words:
-                self.assertIn(word, text)
-            self.assertEqual(os.listdir(self.output_folder), [])
-
-    def test_modes_says_what_could_not_be_written(self):
-        code, text = run('cable_modes', SWEEP_YAML, '--vehicle', SWEEP_URDF, '--json',
-                         self.path('no/such/folder.json'))
-        self.assertEqual(code, 4, text)
-        self.assertIn('could not be written', text)
 
 
 if __name__ == '__main__':
