@@ -17,6 +17,11 @@ Cause BaseMotionCause() {
     cause.hypotheses.push_back(
         {{{{clamp + "tilt[0]"}}, {{clamp + "tilt[1]"}}, {{clamp + "tilt[2]"}}}});
   }
+  // One source of both motions errs in both.
+  cause.hypotheses.push_back({{{{"faults.base_motion.a.amplitude"}},
+                               {{"faults.base_motion.b.amplitude"}},
+                               {{"faults.base_motion.a.phase"}},
+                               {{"faults.base_motion.b.phase"}}}});
   return cause;
 }
 

@@ -113,9 +113,11 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
   std::vector<std::size_t> todo(columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k) todo[k] = k;
   for (int round = 0; round <= kRescaled && !todo.empty(); ++round) {
-    std::vector<RecordModel::Settings> also;
-    for (const std::size_t k : todo)
-      also.push_back(trials[columns[k].trial].components[columns[k].component].At());
+    std::vector<Unknowns::Setting> also;
+    for (const std::size_t k : todo) {
+      const Trial& trial = trials[columns[k].trial];
+      also.push_back({trial.components[columns[k].component].At(), trial.channels});
+    }
     const std::vector<RecordModel::Simulated> found = problem.model().SimulateWith(at.values, also);
     std::vector<std::size_t> again;
     for (std::size_t i = 0; i < todo.size(); ++i) {
@@ -175,7 +177,8 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
     }
     // Without what no record shows, some are the same.
     const bool known = std::any_of(screened.begin(), screened.end(), [&](const Screened& other) {
-      return other.trial.cause == one.trial.cause && other.trial.Values() == one.trial.Values();
+      return other.trial.cause == one.trial.cause && other.trial.channels == one.trial.channels &&
+             other.trial.Values() == one.trial.Values();
     });
     if (shown.empty() || known) continue;
     const auto n = static_cast<Eigen::Index>(shown.size());

@@ -2,13 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "cosserat_cable/cable/parameters.h"
+#include "cosserat_cable/input/number_text.h"
 
 namespace cosserat_cable {
 namespace {
 
 using Role = HypothesisNumber::Role;
+
+// Of more markers, none is taken to be another sensor than the others.
+constexpr std::size_t kMostPlaces = 6;
 
 /// Items of a list that the set has already stay; the hypothesis is the next one.
 std::string NextItem(const std::string& path, const CableKeys& keys) {
@@ -37,6 +42,27 @@ bool CanBeNegative(const std::string& path) {
   const std::optional<Parameter> parameter = FindParameter(path);
   if (!parameter) return false;
   return parameter->sign == ParameterSign::kSigned || NeutralOf(path) > parameter->lower;
+}
+
+/// Channels that one sensor may measure: those of a quantity, and those of one at a place; not all.
+std::vector<std::vector<std::string>> SensorGroups(const MeasurementSet& set) {
+  std::set<std::string> all;
+  std::map<std::string, std::set<std::string>> of_quantity, of_place;
+  for (const Experiment& experiment : set.experiments)
+    for (const Channel& channel : experiment.channels) {
+      const std::string quantity = ToString(channel.quantity);
+      all.insert(channel.column);
+      of_quantity[quantity].insert(channel.column);
+      of_place[quantity + " " + FormatNumber(channel.s)].insert(channel.column);
+    }
+  std::set<std::set<std::string>> groups;
+  for (const auto& [quantity, columns] : of_quantity) groups.insert(columns);
+  if (of_place.size() <= kMostPlaces)
+    for (const auto& [place, columns] : of_place) groups.insert(columns);
+  groups.erase(all);
+  std::vector<std::vector<std::string>> result;
+  for (const std::set<std::string>& group : groups) result.emplace_back(group.begin(), group.end());
+  return result;
 }
 
 Trial MakeTrial(const std::string& cause, const Hypothesis& hypothesis,
@@ -117,11 +143,17 @@ std::vector<Trial> AllTrials(const MeasurementSet& set, const MotionScales& scal
   std::vector<Trial> trials;
   for (const Cause& cause : Causes())
     for (const Hypothesis& hypothesis : cause.hypotheses) {
-      const Trial trial = MakeTrial(cause.name, hypothesis, scales);
+      Trial trial = MakeTrial(cause.name, hypothesis, scales);
       const std::vector<std::string> paths = trial.FreePaths();
-      if (std::none_of(paths.begin(), paths.end(),
-                       [&](const std::string& path) { return GivesParameter(path, set.cable); }))
+      if (std::any_of(paths.begin(), paths.end(),
+                      [&](const std::string& path) { return GivesParameter(path, set.cable); }))
+        continue;
+      trials.push_back(trial);
+      if (trial.cause != "sensor") continue;
+      for (const std::vector<std::string>& group : SensorGroups(set)) {
+        trial.channels = group;
         trials.push_back(trial);
+      }
     }
   return trials;
 }
@@ -136,6 +168,8 @@ MeasurementSet WithTrials(const MeasurementSet& set, const std::vector<Trial>& t
   }
   for (const Trial& trial : trials) {
     for (const auto& [path, value] : trial.Values()) SetParameter(path, value, &extended.cable);
+    if (!trial.channels.empty())
+      extended.cable.faults.value->sensor.back().channels = trial.channels;
     for (const std::string& path : trial.FreePaths()) uncertain.push_back({path, {}});
   }
   extended.cable.uncertain.value = uncertain;

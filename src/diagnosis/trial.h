@@ -28,6 +28,7 @@ struct TrialComponent {
 struct Trial {
   std::string cause;
   std::vector<TrialComponent> components;
+  std::vector<std::string> channels;  ///< that a sensor's fault concerns; none: all
 
   std::vector<std::string> FreePaths() const;
   /// All values at the sizes of the components.

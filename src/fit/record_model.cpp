@@ -42,6 +42,10 @@ Eigen::VectorXd Moved(const Eigen::VectorXd& values, int unknown, double by) {
   return moved;
 }
 
+bool IsOf(int unknown, const std::vector<bool>& which) {
+  return !which.empty() && which[static_cast<std::size_t>(unknown)];
+}
+
 /// A step that resolves what the record shows: from how fast its channels move, and from its
 /// samples.
 double StepFor(const Record& record) {
@@ -290,7 +294,7 @@ std::vector<RecordModel::Simulated> RecordModel::Simulate(
 }
 
 std::vector<RecordModel::Simulated> RecordModel::SimulateWith(
-    const Eigen::VectorXd& values, const std::vector<Settings>& also) const {
+    const Eigen::VectorXd& values, const std::vector<Unknowns::Setting>& also) const {
   const auto& experiments = unknowns_.set().experiments;
   const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
   const std::size_t groups = (also.size() + together - 1) / together;
@@ -334,11 +338,11 @@ void RecordModel::TakeStepsFrom(const RecordModel& other, int experiment) {
   error_ = {other.error_[e]};
 }
 
-int RecordModel::MostShown() const {
+int RecordModel::MostShown(const std::vector<bool>& left_out) const {
   int most = 0;
   for (int e = 0; e < static_cast<int>(unknowns_.set().experiments.size()); ++e) {
     int shown = 0;
-    for (int i = 0; i < unknowns_.size(); ++i) shown += Shows(i, e);
+    for (int i = 0; i < unknowns_.size(); ++i) shown += Shows(i, e) && !IsOf(i, left_out);
     most = std::max(most, shown);
   }
   return most;
@@ -348,9 +352,11 @@ Eigen::VectorXd RecordModel::SmallSteps() const {
   return Eigen::VectorXd::Constant(unknowns_.size(), kSmallStep);
 }
 
-RecordModel::Derivatives RecordModel::Differentiate(
-    const Eigen::VectorXd& values, const Horizon& horizon, Difference difference,
-    const Eigen::VectorXd& steps, const std::vector<Eigen::VectorXd>& others) const {
+RecordModel::Derivatives RecordModel::Differentiate(const Eigen::VectorXd& values,
+                                                    const Horizon& horizon, Difference difference,
+                                                    const Eigen::VectorXd& steps,
+                                                    const std::vector<Eigen::VectorXd>& others,
+                                                    const std::vector<bool>& left_out) const {
   const std::size_t experiments = unknowns_.set().experiments.size();
   struct Column {
     int unknown;
@@ -365,7 +371,7 @@ RecordModel::Derivatives RecordModel::Differentiate(
   };
   for (std::size_t e = 0; e < experiments; ++e)
     for (int i = 0; i < unknowns_.size(); ++i) {
-      if (!Shows(i, static_cast<int>(e))) continue;
+      if (!Shows(i, static_cast<int>(e)) || IsOf(i, left_out)) continue;
       Column column{i};
       const double by = step_of(i);
       const bool up = inside(i, by) || !inside(i, -by);  // a damping stays above zero

@@ -336,8 +336,7 @@ Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, Problems* 
   return MakeSpecimen(e, values, {}, problems);
 }
 
-Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values,
-                                const std::vector<std::pair<std::string, double>>& also,
+Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values, const Setting& also,
                                 Problems* problems) const {
   const Experiment& experiment = set_.experiments[e];
   CableKeys keys = keys_[e];
@@ -358,8 +357,10 @@ Specimen Unknowns::MakeSpecimen(int e, const Eigen::VectorXd& values,
     else
       SetParameter(u.name, values[i], &keys);
   }
-  for (const auto& [name, value] : also)
+  for (const auto& [name, value] : also.numbers)
     if (!IsFault(name) || CanHaveFault(name, experiment)) SetParameter(name, value, &keys);
+  if (!also.channels.empty() && keys.faults.value && !keys.faults.value->sensor.empty())
+    keys.faults.value->sensor.back().channels = also.channels;
   if (experiment.quasi_static()) keys = WithoutUnknownDamping(keys);
   Specimen specimen = cosserat_cable::MakeSpecimen(keys, experiment, problems);
   specimen.disc_inertia = inertia;

@@ -70,12 +70,14 @@ class RecordModel {
   };
   enum class Difference { kForward, kCentral };
   /// `steps`: by unknown, of the differences, in its scale. Where a simulation fails on one side,
-  /// the other one is taken. `others` are points to be simulated beside.
+  /// the other one is taken. `others` are points to be simulated beside. By unknowns that are
+  /// `left_out` there are no derivatives.
   Derivatives Differentiate(const Eigen::VectorXd& values, const Horizon& horizon,
                             Difference difference, const Eigen::VectorXd& steps,
-                            const std::vector<Eigen::VectorXd>& others = {}) const;
-  /// How many unknowns an experiment shows at most.
-  int MostShown() const;
+                            const std::vector<Eigen::VectorXd>& others = {},
+                            const std::vector<bool>& left_out = {}) const;
+  /// How many unknowns an experiment shows at most, but for those that are left out.
+  int MostShown(const std::vector<bool>& left_out = {}) const;
   /// The steps where nothing is known of how large an effect they have.
   Eigen::VectorXd SmallSteps() const;
 
@@ -90,11 +92,10 @@ class RecordModel {
   /// The same for a set of one experiment, which is this one of the other's.
   void TakeStepsFrom(const RecordModel& other, int experiment);
 
-  /// The records with these values, and with a parameter of the cable or a fault of the records set
+  /// The records with these values, and with parameters of the cable or faults of the records set
   /// besides, one item of `also` after the other: those of an experiment side by side.
-  using Settings = std::vector<std::pair<std::string, double>>;
   std::vector<Simulated> SimulateWith(const Eigen::VectorXd& values,
-                                      const std::vector<Settings>& also) const;
+                                      const std::vector<Unknowns::Setting>& also) const;
 
   /// From now on the runs that the experiment's correction comes from are twice as fine.
   /// @return false where they are as fine as is sensible already

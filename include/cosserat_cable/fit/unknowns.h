@@ -93,9 +93,13 @@ class Unknowns {
   bool Concerns(int unknown, int experiment) const;
   /// The experiment's specimen with these values. Values that make no cable: `problems` grow.
   Specimen MakeSpecimen(int experiment, const Eigen::VectorXd& values, Problems* problems) const;
-  /// The same with parameters of the registry set besides, as far as the experiment can have them.
-  Specimen MakeSpecimen(int experiment, const Eigen::VectorXd& values,
-                        const std::vector<std::pair<std::string, double>>& also,
+  /// Parameters of the registry that are set besides the unknowns.
+  struct Setting {
+    std::vector<std::pair<std::string, double>> numbers;  ///< by path
+    std::vector<std::string> channels;  ///< of the last sensor fault; none: all channels
+  };
+  /// The same with a setting, as far as the experiment can have it.
+  Specimen MakeSpecimen(int experiment, const Eigen::VectorXd& values, const Setting& also,
                         Problems* problems) const;
   /// Sum of the channels' offsets at these values, to be added to what is simulated.
   double OffsetOf(int experiment, int channel, const Eigen::VectorXd& values) const;
