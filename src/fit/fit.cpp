@@ -72,35 +72,66 @@ std::vector<double> CostsOf(const RecordModel& model, const std::vector<Eigen::V
   return costs;
 }
 
+/// By unknown, whether it concerns one experiment only and the derivatives by it are there.
+std::vector<bool> Known(const RecordModel& model, const RecordJacobian& jacobian) {
+  std::vector<bool> known(static_cast<std::size_t>(model.unknowns().size()), false);
+  for (const RecordJacobian::Record& record : jacobian.records())
+    for (const int i : record.unknowns)
+      known[static_cast<std::size_t>(i)] =
+          model.unknowns().all()[static_cast<std::size_t>(i)].experiment >= 0;
+  return known;
+}
+
+/// The derivatives by what is left out, as they are known.
+RecordJacobian Completed(const RecordJacobian& part, const RecordJacobian& known,
+                         const std::vector<bool>& left_out) {
+  std::vector<RecordJacobian::Record> records = part.records();
+  for (std::size_t e = 0; e < records.size(); ++e) {
+    const RecordJacobian::Record& from = known.records()[e];
+    for (std::size_t k = 0; k < from.unknowns.size(); ++k) {
+      if (!left_out[static_cast<std::size_t>(from.unknowns[k])]) continue;
+      const Eigen::Index columns = records[e].columns.cols();
+      records[e].columns.conservativeResize(Eigen::NoChange, columns + 1);
+      records[e].columns.col(columns) = from.columns.col(static_cast<Eigen::Index>(k));
+      records[e].unknowns.push_back(from.unknowns[k]);
+    }
+  }
+  return RecordJacobian(std::move(records), part.priors());
+}
+
 /// All records, by the unknowns' variables.
 class RecordProblem : public LeastSquaresProblem {
  public:
   RecordProblem(const RecordModel& model, const Horizon& horizon, const NoiseLevels& noise,
-                const FitProgress& progress, const Eigen::VectorXd& steps, double samples)
+                const FitProgress& progress, const FitOptions& fit, double samples)
       : model_(model),
         horizon_(horizon),
         noise_(noise),
         progress_(progress),
         samples_(samples),
-        steps_(steps) {
+        steps_(fit.steps),
+        jacobian_(fit.known) {
     first_ = steps_.size() == 0;
     if (first_) steps_ = model.SmallSteps();
   }
 
   Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
-                          std::vector<double>* costs) override {
+                          bool whole, std::vector<double>* costs) override {
     std::vector<Eigen::VectorXd> beside;
     for (const Eigen::VectorXd& other : others) beside.push_back(ValuesOf(other));
-    Linearised found =
-        cosserat_cable::Linearise(model_, ValuesOf(x), horizon_, noise_,
-                                  RecordModel::Difference::kForward, first_, &steps_, beside);
+    Linearised found = cosserat_cable::Linearise(model_, ValuesOf(x), horizon_, noise_,
+                                                 RecordModel::Difference::kForward, first_, &steps_,
+                                                 beside, whole ? nullptr : &jacobian_);
     *costs = found.other_costs;
     Linearisation at;
     at.ok = found.ok;
     message_ = found.message;
     if (!found.ok) return at;
     first_ = false;
+    at.whole = found.whole;
     jacobian_ = std::move(found.jacobian);
+    linearised_at_ = x;
+    is_whole_ = found.whole;
     at.cost = 0.5 * found.residuals.squaredNorm();
     at.gram = jacobian_.Gram();
     at.gradient = jacobian_.TransposeTimes(found.residuals);
@@ -128,7 +159,7 @@ class RecordProblem : public LeastSquaresProblem {
   int Room() const override {
     // What the differences leave of the lanes, or as many lanes more.
     const int lanes = rod::RodBatch::PreferredRods();
-    return lanes - 1 - model_.MostShown() % lanes;
+    return lanes - 1 - model_.MostShown(Known(model_, jacobian_)) % lanes;
   }
 
   bool GoOn(int iteration, double cost) override {
@@ -157,6 +188,7 @@ class RecordProblem : public LeastSquaresProblem {
   }
 
   const RecordJacobian& jacobian() const { return jacobian_; }
+  bool IsJacobianAt(const Eigen::VectorXd& x) const { return is_whole_ && linearised_at_ == x; }
   const Eigen::VectorXd& steps() const { return steps_; }
   const std::string& message() const { return message_; }
 
@@ -182,6 +214,8 @@ class RecordProblem : public LeastSquaresProblem {
   Eigen::VectorXd steps_;
   bool first_ = true;
   RecordJacobian jacobian_;
+  Eigen::VectorXd linearised_at_;
+  bool is_whole_ = false;
   std::string message_;
 };
 
@@ -326,15 +360,20 @@ RecordJacobian WeightedJacobian(const RecordModel& model,
 Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
                      const Horizon& horizon, const NoiseLevels& noise,
                      RecordModel::Difference difference, bool again, Eigen::VectorXd* steps,
-                     const std::vector<Eigen::VectorXd>& others) {
+                     const std::vector<Eigen::VectorXd>& others, const RecordJacobian* known) {
   Linearised result;
-  RecordModel::Derivatives found = model.Differentiate(values, horizon, difference, *steps, others);
+  std::vector<bool> left_out;
+  if (known) left_out = Known(model, *known);
+  result.whole = std::count(left_out.begin(), left_out.end(), true) == 0;
+  RecordModel::Derivatives found =
+      model.Differentiate(values, horizon, difference, *steps, others, left_out);
   result.other_costs = CostsOf(model, others, found.others, noise);
   for (;; again = false) {
     result.ok = found.at.ok;
     result.message = found.at.message;
     if (!result.ok) return result;
     result.jacobian = WeightedJacobian(model, found, noise);
+    if (!result.whole) result.jacobian = Completed(result.jacobian, *known, left_out);
     bool unsuitable = false;
     for (int i = 0; i < steps->size(); ++i) {
       // In the record that shows it most: the root of the mean square of what the step does.
@@ -351,7 +390,7 @@ Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
       (*steps)[i] = wanted;
     }
     if (!again || !unsuitable) break;
-    found = model.Differentiate(values, horizon, difference, *steps);
+    found = model.Differentiate(values, horizon, difference, *steps, {}, left_out);
   }
   result.simulated = std::move(found.at.records);
   result.residuals = WeightedResiduals(model, values, result.simulated, noise);
@@ -368,7 +407,7 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
     options.samples +=
         SamplesUntil(experiment, horizon[e]) * static_cast<double>(experiment.channels.size());
   }
-  RecordProblem problem(model, horizon, noise, progress, fit.steps, options.samples);
+  RecordProblem problem(model, horizon, noise, progress, fit, options.samples);
   options.lower.resize(unknowns.size());
   options.upper.resize(unknowns.size());
   for (int i = 0; i < unknowns.size(); ++i) {
@@ -385,18 +424,21 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   // On the way, what changes the misfit by a small part is not worth an iteration either.
   const double by_sample = fit.loose ? kLoose : fit.to_noise ? 0 : kOfMisfit;
   options.small_gain = std::max(kSmallGain, by_sample * options.samples);
+  options.aim = fit.aim;
   const LeastSquaresResult found = Minimise(problem.VariablesOf(values), options, &problem);
 
   FitResult result;
   result.interrupted = found.end == LeastSquaresResult::End::kStopped || model.Stopping();
   result.ok = found.end != LeastSquaresResult::End::kFailed;
   result.at_minimum = found.end == LeastSquaresResult::End::kMinimum;
+  result.is_far = found.end == LeastSquaresResult::End::kFar;
   result.message = problem.message();
   result.cost = found.cost;
   result.gain_left = found.gain_left;
   result.iterations = found.iterations;
   result.values = problem.ValuesOf(found.x);
   result.jacobian = problem.jacobian();
+  result.is_jacobian = problem.IsJacobianAt(found.x);
   result.steps = problem.steps();
   return result;
 }

@@ -79,12 +79,11 @@ void FitProblem::Refine(const FitPoint& at) {
 
 FitPoint FitProblem::PointOf(const FitResult& fit) {
   FitPoint point;
-  // At a minimum, the last derivatives are those there.
-  if (fit.at_minimum) {
+  if (fit.is_jacobian || fit.is_far) {
     RecordModel::Simulated found = model_->Simulate({fit.values}, model_->WholeHorizon()).front();
     if (found.ok) point = PointOf(fit.values, std::move(found.records), fit.jacobian);
   }
-  if (!point.ok) point = At(fit.values);
+  if (!point.ok) point = PointAt(fit.values, fit.steps);
   point.ok = point.ok && fit.ok;
   point.interrupted = fit.interrupted;
   point.at_minimum = fit.at_minimum;
@@ -93,10 +92,13 @@ FitPoint FitProblem::PointOf(const FitResult& fit) {
   return point;
 }
 
-FitPoint FitProblem::At(const Eigen::VectorXd& values) {
-  Eigen::VectorXd steps = model_->SmallSteps();
+FitPoint FitProblem::At(const Eigen::VectorXd& values) { return PointAt(values, {}); }
+
+FitPoint FitProblem::PointAt(const Eigen::VectorXd& values, Eigen::VectorXd steps) {
+  const bool first = steps.size() == 0;
+  if (first) steps = model_->SmallSteps();
   Linearised found = Linearise(*model_, values, model_->WholeHorizon(), noise_,
-                               RecordModel::Difference::kForward, true, &steps);
+                               RecordModel::Difference::kForward, first, &steps);
   if (found.ok) return PointOf(values, std::move(found.simulated), std::move(found.jacobian));
   FitPoint none;
   none.message = found.message;
@@ -110,6 +112,7 @@ FitPoint FitProblem::PointOf(const Eigen::VectorXd& values, Records simulated,
   point.unknowns = unknowns_->all();
   point.values = values;
   point.simulated = std::move(simulated);
+  point.noise = noise_;
   point.jacobian = std::move(jacobian);
   const auto& experiments = unknowns_->set().experiments;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
@@ -160,8 +163,34 @@ Eigen::VectorXd FitProblem::StartFrom(const FitPoint& start,
   return values;
 }
 
+/// The start's derivatives by what concerns one experiment only, by the unknowns here.
+RecordJacobian FitProblem::OwnColumns(const FitPoint& start) const {
+  std::vector<RecordJacobian::Record> records;
+  const auto& experiments = unknowns_->set().experiments;
+  if (start.jacobian.records().size() != experiments.size() || start.noise != noise_) return {};
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const RecordJacobian::Record& from = start.jacobian.records()[e];
+    if (from.columns.rows() != experiments[e].record.values.size()) return {};
+    RecordJacobian::Record own;
+    own.columns.resize(from.columns.rows(), 0);
+    for (std::size_t k = 0; k < from.unknowns.size(); ++k) {
+      const Unknown& there = start.unknowns[static_cast<std::size_t>(from.unknowns[k])];
+      const int i = there.experiment < 0 ? -1 : unknowns_->Find(there.name);
+      if (i < 0 || unknowns_->all()[static_cast<std::size_t>(i)].scale != there.scale) continue;
+      const Eigen::Index columns = own.columns.cols();
+      own.columns.conservativeResize(Eigen::NoChange, columns + 1);
+      own.columns.col(columns) = from.columns.col(static_cast<Eigen::Index>(k));
+      own.unknowns.push_back(i);
+    }
+    records.push_back(std::move(own));
+  }
+  return RecordJacobian(std::move(records), Eigen::VectorXd::Zero(unknowns_->size()));
+}
+
 FitPoint FitProblem::FitFrom(const FitPoint& start, const std::map<std::string, double>& also) {
   FitOptions options;
+  options.known = OwnColumns(start);
+  options.aim = 0.5 * options_.aim;
   const double samples = std::max(1.0, start.samples);
   options.to_noise = start.cost < kMuchNoise * samples;
   options.max_iterations = options_.max_iterations;

@@ -17,6 +17,12 @@ constexpr double kWorthwhile = 0.01;
 constexpr double kNearlyAsMuch = 0.5;
 // So many steps in a row that gain less than what ends the search, although more is promised.
 constexpr int kSmallGains = 3;
+// The aim is out of reach where so many times what is promised does not lead there, so many times
+// in a row.
+constexpr double kPromised = 4;
+constexpr int kOutOfReach = 3;
+// A step that gains less than this part of what was promised asks for new derivatives.
+constexpr double kAsPromised = 0.3;
 // Of the largest diagonal entry: a direction that no residual shows is not followed.
 constexpr double kUnseen = 1e-14;
 // Mean square of the residuals, in the noise's variance, above which they are no noise; and the
@@ -81,10 +87,21 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
   LeastSquaresResult result;
   result.x = start.cwiseMax(options.lower).cwiseMin(options.upper);
   double damping = kFirstDamping;
-  int small_gains = 0;
+  int small_gains = 0, out_of_reach = 0;
+  bool whole = false;
   std::vector<double> costs;
-  LeastSquaresProblem::Linearisation at = problem->Linearise(result.x, {}, &costs);
+  LeastSquaresProblem::Linearisation at = problem->Linearise(result.x, {}, false, &costs);
   if (!at.ok) return result;
+  // Nothing ends by derivatives that are not those of the place.
+  const auto completed = [&] {
+    if (at.whole) return false;
+    LeastSquaresProblem::Linearisation here = problem->Linearise(result.x, {}, true, &costs);
+    if (!here.ok) return false;
+    at = std::move(here);
+    damping = kFirstDamping;
+    small_gains = 0;
+    return true;
+  };
   result.end = End::kStuck;
   for (;; ++result.iterations) {
     result.cost = at.cost;
@@ -97,6 +114,7 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
     const double of_misfit =
         kOfMisfit * std::max(0.0, at.cost - 0.5 * kMuchNoise * options.samples);
     if (!(gain > std::max(options.small_gain * noise, of_misfit))) {
+      if (completed()) continue;
       result.end = End::kMinimum;
       return result;
     }
@@ -104,7 +122,16 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
       result.end = End::kIterations;
       return result;
     }
-    if (small_gains >= kSmallGains) return result;
+    const bool far = options.aim > 0 && at.cost - kPromised * gain > options.aim;
+    out_of_reach = far ? out_of_reach + 1 : 0;
+    if (out_of_reach >= kOutOfReach) {
+      result.end = End::kFar;
+      return result;
+    }
+    if (small_gains >= kSmallGains) {
+      if (completed()) continue;
+      return result;
+    }
     const double enough = at.cost - kWorthwhile * std::max(options.small_gain * noise, of_misfit);
 
     // From less damping than did last time to more.
@@ -114,10 +141,13 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
         result.end = End::kStopped;
         return result;
       }
-      if (tried > kLargest) return result;
+      if (tried > kLargest) {
+        if (completed()) break;
+        return result;
+      }
       const bool first = tried <= damping;
       std::vector<Eigen::VectorXd> points;
-      std::vector<double> dampings;
+      std::vector<double> dampings, promised;
       const int count = first ? 1 + problem->Room() : problem->SideBySide();
       for (int k = 0; k < count; ++k, tried *= kRatio) {
         Eigen::VectorXd next = result.x + StepOf(at, free, tried, &gain);
@@ -126,12 +156,13 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
         if (!next.allFinite()) continue;
         points.push_back(next);
         dampings.push_back(tried);
+        promised.push_back(gain);
       }
       if (points.empty()) continue;
       Best best{enough};
       LeastSquaresProblem::Linearisation there;
       if (first) {
-        there = problem->Linearise(points[0], {points.begin() + 1, points.end()}, &costs);
+        there = problem->Linearise(points[0], {points.begin() + 1, points.end()}, whole, &costs);
         costs.insert(costs.begin(),
                      there.ok ? there.cost : std::numeric_limits<double>::infinity());
       } else {
@@ -144,7 +175,7 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
           at.cost - there.cost > kNearlyAsMuch * (at.cost - best.cost))
         best.index = 0;
       const auto k = static_cast<std::size_t>(best.index);
-      if (!there.ok || k > 0) there = problem->Linearise(points[k], {}, &costs);
+      if (!there.ok || k > 0) there = problem->Linearise(points[k], {}, whole, &costs);
       if (!there.ok) {
         // It was simulated, its neighbours cannot be: it is as far as one gets.
         result.x = points[k];
@@ -152,6 +183,7 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
         return result;
       }
       const double gained = at.cost - there.cost;
+      whole = gained < kAsPromised * promised[k];
       small_gains = gained < std::max(options.small_gain * noise, of_misfit) ? small_gains + 1 : 0;
       result.x = points[k];
       damping = dampings[k];

@@ -16,13 +16,15 @@ class LeastSquaresProblem {
 
   struct Linearisation {
     bool ok = false;           ///< false: r or its derivatives cannot be found at x
+    bool whole = true;         ///< false: some derivatives are from another x, near by
     double cost = 0;           ///< r^T r / 2
     Eigen::MatrixXd gram;      ///< J^T J
     Eigen::VectorXd gradient;  ///< J^T r
   };
-  /// At x; `costs` become those of `others`, infinite where there is none.
+  /// At x; `costs` become those of `others`, infinite where there is none. Unless it is to be
+  /// `whole`, what hardly changes may be left as it was.
   virtual Linearisation Linearise(const Eigen::VectorXd& x,
-                                  const std::vector<Eigen::VectorXd>& others,
+                                  const std::vector<Eigen::VectorXd>& others, bool whole,
                                   std::vector<double>* costs) = 0;
   /// The costs at several points, infinite where there is none.
   virtual std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) = 0;
@@ -44,6 +46,9 @@ struct LeastSquaresOptions {
   /// `samples` of them.
   double small_gain = 1e-3;
   double samples = 1;
+  /// A cost to be reached; zero: none. Where the linear model promises for long only a small part
+  /// of what is missing, the search ends.
+  double aim = 0;
 };
 
 struct LeastSquaresResult {
@@ -52,6 +57,7 @@ struct LeastSquaresResult {
     kStuck,    ///< no damping gains anything, though more should be gained: the residuals are too
                ///< rough
     kIterations,  ///< max_iterations were not enough
+    kFar,         ///< the aim is out of reach
     kStopped,     ///< by GoOn
     kFailed       ///< the first linearisation failed
   };

@@ -45,26 +45,32 @@ struct Linearised {
   Eigen::VectorXd residuals;  ///< WeightedResiduals
   RecordJacobian jacobian;
   std::vector<double> other_costs;  ///< half the sums of squares at the other points
+  bool whole = true;                ///< false: some derivatives are older than the rest
 };
 /// `steps`, of the differences in the unknowns' scales, are made to suit: large enough to rise
 /// above rounding, with an effect of some part of the noise at most. `again`: what they turned out
-/// to be unsuitable for is differentiated once more. `others` are simulated beside.
+/// to be unsuitable for is differentiated once more. `others` are simulated beside. Derivatives by
+/// what concerns one experiment only are taken from `known`, where they are there: they hardly
+/// change on the way, and there are many of them.
 Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
                      const Horizon& horizon, const NoiseLevels& noise,
                      RecordModel::Difference difference, bool again, Eigen::VectorXd* steps,
-                     const std::vector<Eigen::VectorXd>& others = {});
+                     const std::vector<Eigen::VectorXd>& others = {},
+                     const RecordJacobian* known = nullptr);
 
 struct FitResult {
   bool ok = false;
   bool interrupted = false;
   bool at_minimum = false;  ///< nothing that counts beside the noise can be gained
+  bool is_far = false;      ///< the aim is out of reach
   std::string message;
   Eigen::VectorXd values;
   double cost = 0;       ///< half the sum of squares
   double gain_left = 0;  ///< of it, as far as the derivatives know, by the noise that is left
   int iterations = 0;
-  RecordJacobian jacobian;  ///< near the end
-  Eigen::VectorXd steps;    ///< of the differences
+  RecordJacobian jacobian;   ///< near the end
+  bool is_jacobian = false;  ///< of the values themselves, and whole
+  Eigen::VectorXd steps;     ///< of the differences
 };
 
 struct FitOptions {
@@ -74,6 +80,10 @@ struct FitOptions {
   std::vector<int> held;   ///< unknowns that stay
   int max_iterations = 0;  ///< 0: as many as it takes
   Eigen::VectorXd steps;   ///< of the differences, from a fit before; may be empty
+  /// From a fit before: derivatives by what concerns one experiment only; may be empty.
+  RecordJacobian known;
+  /// Half a sum of squares that is to be reached: what is far from it for long does not go on.
+  double aim = 0;
 };
 /// From `values`, with the unknowns in their bounds, to where nothing more can be gained.
 FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Horizon& horizon,

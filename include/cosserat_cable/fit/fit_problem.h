@@ -29,6 +29,7 @@ struct FitProblemOptions {
   NoiseLevels noise;              ///< empty: SetNoise of the set
   std::vector<std::string> held;  ///< unknowns that stay in warm fits
   int max_iterations = 0;         ///< of a warm fit; 0: as many as it takes
+  double aim = 0;                 ///< of a warm fit: the sum of squares to be reached; 0: none
   std::function<bool()> stop;
   FitProgress progress;
 };
@@ -51,6 +52,7 @@ struct FitPoint {
   Eigen::VectorXd values;
   Records simulated;
   Records residuals;        ///< measured less simulated, over the noise's standard deviation
+  NoiseLevels noise;        ///< that standard deviation
   double cost = 0;          ///< their sum of squares [noise variances], held-out records left out
   double samples = 0;       ///< how many of them
   RecordJacobian jacobian;  ///< of the residuals by the unknowns in units of their scales
@@ -82,6 +84,8 @@ class FitProblem {
 
   /// Of warm fits from now on; 0: as many as it takes.
   void SetMaxIterations(int count) { options_.max_iterations = count; }
+  /// The sum of squares that a warm fit is to reach, to be worth its end; 0: none.
+  void SetAim(double cost) { options_.aim = cost; }
 
   /// From the set's own values and points around them.
   FitPoint FitFromAfar();
@@ -100,8 +104,11 @@ class FitProblem {
 
  private:
   FitPoint PointOf(const FitResult& fit);
+  /// `steps`: of the differences; may be empty.
+  FitPoint PointAt(const Eigen::VectorXd& values, Eigen::VectorXd steps);
   FitPoint PointOf(const Eigen::VectorXd& values, Records simulated, RecordJacobian jacobian) const;
   bool IsHeldOut(std::size_t experiment) const;
+  RecordJacobian OwnColumns(const FitPoint& start) const;
 
   FitProblemOptions options_;
   std::unique_ptr<Unknowns> unknowns_;

@@ -1,0 +1,102 @@
+// Levenberg and Marquardt's method on Rosenbrock's valley, whose floor lies at (1, 1).
+#include "../../src/fit/least_squares.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cosserat_cable {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Residuals 10 (y - x^2), 1 - x and one that nothing changes. May leave a derivative as it was.
+class Valley : public LeastSquaresProblem {
+ public:
+  Valley(double floor, bool keeps) : floor_(floor), keeps_(keeps) {}
+
+  Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
+                          bool whole, std::vector<double>* costs) override {
+    ++linearised;
+    if (whole || !keeps_ || !known_) slope_ = -20 * x[0];
+    Linearisation at;
+    at.ok = true;
+    at.whole = whole || !keeps_ || !known_;
+    known_ = true;
+    Eigen::Matrix<double, 3, 2> jacobian;
+    jacobian << slope_, 10, -1, 0, 0, 0;
+    at.cost = Cost(x);
+    at.gram = jacobian.transpose() * jacobian;
+    at.gradient = jacobian.transpose() * Residuals(x);
+    *costs = Costs(others);
+    return at;
+  }
+  std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) override {
+    std::vector<double> costs;
+    for (const Eigen::VectorXd& x : points) costs.push_back(Cost(x));
+    return costs;
+  }
+  int SideBySide() const override { return 4; }
+  int Room() const override { return 1; }
+  bool GoOn(int, double) override { return true; }
+  void Restrain(const Eigen::VectorXd&, Eigen::VectorXd*) const override {}
+
+  int linearised = 0;
+
+ private:
+  Eigen::Vector3d Residuals(const Eigen::VectorXd& x) const {
+    return {10 * (x[1] - x[0] * x[0]), 1 - x[0], floor_};
+  }
+  double Cost(const Eigen::VectorXd& x) const { return 0.5 * Residuals(x).squaredNorm(); }
+
+  double floor_;
+  bool keeps_, known_ = false;
+  double slope_ = 0;
+};
+
+LeastSquaresOptions Wide() {
+  LeastSquaresOptions options;
+  options.lower = Vector2d::Constant(-1e3);
+  options.upper = Vector2d::Constant(1e3);
+  options.small_gain = 1e-10;
+  return options;
+}
+
+const Vector2d kStart(-1.2, 1);  // Rosenbrock's
+constexpr double kNear = 1e-4;
+
+TEST(LeastSquaresTest, ComesToTheEndOfTheValley) {
+  Valley valley(0, false);
+  const LeastSquaresResult found = Minimise(kStart, Wide(), &valley);
+  EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
+  EXPECT_LT((found.x - Vector2d(1, 1)).norm(), kNear);
+}
+
+TEST(LeastSquaresTest, EndsWhereWholeDerivativesSaySo) {
+  Valley valley(0, true);
+  LeastSquaresOptions options = Wide();
+  options.max_iterations = 200;
+  const LeastSquaresResult found = Minimise(kStart, options, &valley);
+  EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
+  EXPECT_LT((found.x - Vector2d(1, 1)).norm(), kNear);
+}
+
+TEST(LeastSquaresTest, DoesNotFollowTheValleyWhereItsAimLiesBelowTheFloor) {
+  constexpr double kFloor = 30;
+  Valley whole(kFloor, false), ended(kFloor, false), reached(kFloor, false);
+  LeastSquaresOptions options = Wide();
+  options.small_gain = 1e-12;
+  const LeastSquaresResult end = Minimise(kStart, options, &whole);
+  EXPECT_EQ(end.end, LeastSquaresResult::End::kMinimum);
+  options.aim = 0.5 * end.cost;
+  const LeastSquaresResult early = Minimise(kStart, options, &ended);
+  EXPECT_EQ(early.end, LeastSquaresResult::End::kFar);
+  EXPECT_LT(ended.linearised, whole.linearised);
+  options.aim = 1.001 * end.cost;
+  const LeastSquaresResult there = Minimise(kStart, options, &reached);
+  EXPECT_EQ(there.end, LeastSquaresResult::End::kMinimum);
+  EXPECT_LT((there.x - end.x).norm(), kNear);
+}
+
+}  // namespace
+}  // namespace cosserat_cable
