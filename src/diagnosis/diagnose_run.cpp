@@ -62,15 +62,19 @@ ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
   DiagnosisOptions diagnosis_options;
   diagnosis_options.time_limit = options.time_limit;
   diagnosis_options.advise = options.advise;
+  diagnosis_options.memory = (folder / "fits.json").string();
   diagnosis_options.stop = Interrupted;
   Diagnosis diagnosis;
-  {
+  try {
     Progress progress(100, "%");
     diagnosis_options.progress = [&](const std::string& what, double part) {
       progress.Update(100 * part, what);
       return !Interrupted();
     };
     diagnosis = Diagnose(set, diagnosis_options, &problems);
+  } catch (const std::exception& failure) {
+    std::cerr << failure.what() << "\n";
+    return kExitFileTrouble;
   }
   if (!problems.empty()) return refuse();
   if (!diagnosis.ok) {
@@ -101,7 +105,8 @@ ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
   for (const std::string& warning : diagnosis.warnings) std::cerr << "warning: " << warning << "\n";
   std::printf("diagnosed in %.1f s\n", diagnosis.seconds);
   if (diagnosis.interrupted) {
-    std::cerr << options.output << ": interrupted: what was found so far was written\n";
+    std::cerr << options.output << ": interrupted: what was found so far was written; "
+              << "the same command goes on from there\n";
     return kExitInterrupted;
   }
   if (!options.report) return kExitDone;

@@ -268,6 +268,7 @@ Diagnosis DiagnosisWork::Report() {
   ReportRecords(judgement);
   Advise(judgement);
   Say(judgement);
+  if (!diagnosis_.interrupted && !OutOfTime()) memory_.Forget();
   diagnosis_.seconds = Seconds();
   return diagnosis_;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/input/number_text.h"
 #include "held_out.h"
 #include "trial_obstacles.h"
 
@@ -16,6 +17,10 @@ constexpr double kAsPromising = 0.6;
 constexpr int kStarts = 2;
 // The part of the misfit that a rival of a cause that leaves just noise must promise.
 constexpr double kRivalPromise = 0.03;
+// Of the best's sum of squares: what a rival may leave beyond, to be one.
+constexpr double kAsGood = 0.5;
+// In parts of that: what does not go on to its end.
+constexpr double kFarFromAim = 3;
 // Of the noise's sum of squares: too little for a cause.
 constexpr double kNothing = 0.02;
 // A promise, in noise variances, that chance makes among all hypotheses.
@@ -25,7 +30,20 @@ constexpr double kNoiseSettled = 0.03;
 // How many of the best models are simulated more finely; and the misfit, in times the noise's
 // variance, that takes no precision to see.
 constexpr int kRefined = 3;
-constexpr double kMuchLeft = 9;
+constexpr double kMuchLeft = 36;
+const char* const kPlain = "plain";
+
+/// Of trials with all that they begin with.
+std::string NameOf(const std::vector<Trial>& trials) {
+  if (trials.empty()) return kPlain;
+  std::string name;
+  for (const Trial& trial : trials) {
+    name += (name.empty() ? "" : " and ") + trial.cause;
+    for (const std::string& channel : trial.channels) name += " " + channel;
+    for (const auto& [path, value] : trial.Values()) name += " " + path + "=" + FormatNumber(value);
+  }
+  return name;
+}
 
 }  // namespace
 
@@ -43,7 +61,12 @@ int FittedTrial::parameters() const {
 }
 
 DiagnosisWork::DiagnosisWork(const MeasurementSet& set, const DiagnosisOptions& options)
-    : set_(set), options_(options), noise_(NoiseOf(set)) {}
+    : set_(set), options_(options), memory_(options.memory, set), noise_(NoiseOf(set)) {
+  if (memory_.begun_with() > 0)
+    diagnosis_.warnings.push_back("an earlier diagnosis of this set was interrupted: " +
+                                  std::to_string(memory_.begun_with()) +
+                                  " of its fits were taken over");
+}
 
 bool DiagnosisWork::Stopping() const { return stopped_ || (options_.stop && options_.stop()); }
 
@@ -83,7 +106,14 @@ bool DiagnosisWork::FitBaseline(Problems* problems) {
     diagnosis_.message = "the set names nothing to be identified";
     return false;
   }
-  plain->point = plain->problem->FitFromAfar();
+  if (const FitMemory::Fit* known = memory_.Find(kPlain)) {
+    const FitPoint there = plain->problem->At(plain->problem->StartFrom({}, known->values));
+    if (there.ok) plain->problem->Refine(there);
+    plain->point = there.ok ? plain->problem->FitFrom(there) : there;
+  } else {
+    plain->point = plain->problem->FitFromAfar();
+    if (plain->point.ok && !plain->point.interrupted) memory_.Add(kPlain, plain->point);
+  }
   Charge("baseline", plain->problem->count());
   if (!plain->point.ok) {
     diagnosis_.interrupted = Stopping();
@@ -136,6 +166,15 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
   return screened;
 }
 
+/// What a rival of a cause that leaves just noise must come near to.
+double DiagnosisWork::Aim() const {
+  double least = 0;
+  for (const auto& model : models_)
+    if (!model->trials.empty() && AdequacyOf(model->point, noise_).adequate)
+      least = least > 0 ? std::min(least, model->point.cost) : model->point.cost;
+  return least > 0 ? std::max(least, models_.front()->point.samples) * (1 + kAsGood) : 0;
+}
+
 std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& trials,
                                                    const FittedTrial& from) {
   auto fitted = std::make_unique<FittedTrial>();
@@ -143,12 +182,20 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   fitted->set = WithTrials(set_, trials);
   FitProblemOptions options = ProblemOptions();
   options.max_iterations = kIterations;
+  options.aim = Aim();
   options.progress = [this](const std::string&) { return !Stopping(); };
   Problems problems;
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
   if (!problems.empty()) return nullptr;
   fitted->problem->ShareSteps(*from.problem);
-  fitted->point = fitted->problem->FitFrom(from.point);
+  const std::string key = "from " + NameOf(from.trials) + " to " + NameOf(trials);
+  if (const FitMemory::Fit* known = memory_.Find(key)) {
+    fitted->point = fitted->problem->At(fitted->problem->StartFrom({}, known->values));
+    fitted->point.at_minimum = known->at_minimum;
+  } else {
+    fitted->point = fitted->problem->FitFrom(from.point);
+    if (fitted->point.ok && !fitted->point.interrupted) memory_.Add(key, fitted->point);
+  }
   return fitted;
 }
 
@@ -229,8 +276,11 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
 /// The fits that promise to come nearest go on to their ends.
 void DiagnosisWork::Continue(double part) {
   std::vector<FittedTrial*> open;
-  for (auto& model : models_)
-    if (!model->trials.empty() && !model->point.at_minimum) open.push_back(model.get());
+  const double aim = Aim();
+  for (auto& model : models_) {
+    const bool is_far = aim > 0 && model->point.cost > kFarFromAim * aim;
+    if (!model->trials.empty() && !model->point.at_minimum && !is_far) open.push_back(model.get());
+  }
   std::sort(open.begin(), open.end(), [](const FittedTrial* a, const FittedTrial* b) {
     return a->point.cost < b->point.cost;
   });
@@ -239,6 +289,7 @@ void DiagnosisWork::Continue(double part) {
     if (OutOfTime() || !Tell("going on with " + model->causes().front(), part)) return;
     const SimulationCount before = model->problem->count();
     model->problem->SetMaxIterations(kMoreIterations);
+    model->problem->SetAim(aim);
     FitPoint point = model->problem->FitFrom(model->point);
     Charge("candidates", model->problem->count() - before);
     if (point.ok && !point.interrupted) model->point = std::move(point);

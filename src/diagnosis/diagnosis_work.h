@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cosserat_cable/diagnosis/diagnosis.h"
+#include "fit_memory.h"
 #include "goodness.h"
 #include "screening.h"
 #include "trial.h"
@@ -68,6 +69,7 @@ class DiagnosisWork {
   bool Tell(const std::string& what, double part);
   void Charge(const std::string& stage, const SimulationCount& count = {});
   FitProblemOptions ProblemOptions() const;
+  double Aim() const;
   std::unique_ptr<FittedTrial> FitOne(const std::vector<Trial>& trials, const FittedTrial& from);
   void Keep(std::unique_ptr<FittedTrial> model);
   bool IsExplained() const;
@@ -83,6 +85,7 @@ class DiagnosisWork {
 
   const MeasurementSet& set_;
   const DiagnosisOptions& options_;
+  FitMemory memory_;
   SetNoise noise_;
   MotionScales scales_;
   std::vector<std::unique_ptr<FittedTrial>> models_;  // the first is the plain one

@@ -16,7 +16,7 @@ constexpr double kSignificant = 25, kPerParameter = 4;
 constexpr double kBeyondError = 3, kBeyondErrorHeldOut = 2;
 // A law that is right in kind explains this part of the misfit at least, and leaves so many times
 // the noise's variance at most.
-constexpr double kExplained = 0.97, kMostLeft = 3;
+constexpr double kExplained = 0.97, kMostLeft = 6;
 // What a rival leaves beyond the noise, by what the best leaves, where neither leaves just noise.
 constexpr double kFarWorse = 2.5;
 
@@ -29,6 +29,8 @@ std::string Times(const Contender& contender) {
   return FormatRounded(std::sqrt(contender.adequacy.times()), 3) + " times the noise";
 }
 
+// Part of what a simpler model leaves beyond the noise that is left by one which is worth its more.
+constexpr double kHardlyAny = 0.5;
 // Part of the noise's sum of squares that a law may be wrong by in form.
 constexpr double kOfAdequate = 0.05;
 
@@ -75,8 +77,10 @@ class Court {
   bool IsWorthIt(int larger, int simpler) const {
     if (!Beats(larger, simpler)) return false;
     if (simpler == 0) return true;
-    if (!(heldout_(simpler, larger).value > 0)) return false;
     const Adequacy& left = Of(simpler).adequacy;
+    // Far from the noise, predictions by derivatives say nothing.
+    if (!left.adequate && Of(larger).adequacy.excess() < kHardlyAny * left.excess()) return true;
+    if (!(heldout_(simpler, larger).value > 0)) return false;
     return !left.adequate || difference_(simpler, larger).value > kOfAdequate * left.expected;
   }
 
