@@ -72,31 +72,11 @@ std::vector<double> CostsOf(const RecordModel& model, const std::vector<Eigen::V
   return costs;
 }
 
-/// By unknown, whether it concerns one experiment only and the derivatives by it are there.
-std::vector<bool> Known(const RecordModel& model, const RecordJacobian& jacobian) {
-  std::vector<bool> known(static_cast<std::size_t>(model.unknowns().size()), false);
-  for (const RecordJacobian::Record& record : jacobian.records())
-    for (const int i : record.unknowns)
-      known[static_cast<std::size_t>(i)] =
-          model.unknowns().all()[static_cast<std::size_t>(i)].experiment >= 0;
-  return known;
-}
-
-/// The derivatives by what is left out, as they are known.
-RecordJacobian Completed(const RecordJacobian& part, const RecordJacobian& known,
-                         const std::vector<bool>& left_out) {
-  std::vector<RecordJacobian::Record> records = part.records();
-  for (std::size_t e = 0; e < records.size(); ++e) {
-    const RecordJacobian::Record& from = known.records()[e];
-    for (std::size_t k = 0; k < from.unknowns.size(); ++k) {
-      if (!left_out[static_cast<std::size_t>(from.unknowns[k])]) continue;
-      const Eigen::Index columns = records[e].columns.cols();
-      records[e].columns.conservativeResize(Eigen::NoChange, columns + 1);
-      records[e].columns.col(columns) = from.columns.col(static_cast<Eigen::Index>(k));
-      records[e].unknowns.push_back(from.unknowns[k]);
-    }
-  }
-  return RecordJacobian(std::move(records), part.priors());
+/// By unknown, whether it concerns one experiment only.
+std::vector<bool> ConcernOne(const Unknowns& unknowns) {
+  std::vector<bool> which;
+  for (const Unknown& u : unknowns.all()) which.push_back(u.experiment >= 0);
+  return which;
 }
 
 /// All records, by the unknowns' variables.
@@ -116,50 +96,50 @@ class RecordProblem : public LeastSquaresProblem {
   }
 
   Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
-                          bool whole, std::vector<double>* costs) override {
+                          Renew renew, std::vector<double>* costs) override {
+    if (renew == Renew::kNone)
+      for (const Tried& one : tried_)
+        if (one.x == x) return MovedTo(one);
     std::vector<Eigen::VectorXd> beside;
     for (const Eigen::VectorXd& other : others) beside.push_back(ValuesOf(other));
+    RecordJacobian known;
+    // What concerns one experiment only changes least on the way, and there is much of it.
+    if (renew == Renew::kSome) known = jacobian_.Only(ConcernOne(model_.unknowns()));
+    if (renew == Renew::kNone) known = jacobian_;
     Linearised found = cosserat_cable::Linearise(model_, ValuesOf(x), horizon_, noise_,
                                                  RecordModel::Difference::kForward, first_, &steps_,
-                                                 beside, whole ? nullptr : &jacobian_);
+                                                 beside, &known);
     *costs = found.other_costs;
-    Linearisation at;
-    at.ok = found.ok;
     message_ = found.message;
-    if (!found.ok) return at;
+    if (!found.ok) return {};
     first_ = false;
-    at.whole = found.whole;
     jacobian_ = std::move(found.jacobian);
-    linearised_at_ = x;
     is_whole_ = found.whole;
-    at.cost = 0.5 * found.residuals.squaredNorm();
-    at.gram = jacobian_.Gram();
-    at.gradient = jacobian_.TransposeTimes(found.residuals);
-    // What no record shows is left alone: its derivatives are rounding.
-    const Eigen::VectorXd seen = jacobian_.SquaredNorms();
-    for (int i = 0; i < seen.size(); ++i)
-      if (seen[i] < kUnseen && jacobian_.priors()[i] == 0) at.gram(i, i) = 0;
-    for (int i = 0; i < x.size(); ++i) {
-      const double slope = VariableSlope(Of(i), x[i]);
-      if (slope == 1) continue;
-      at.gram.row(i) *= slope;
-      at.gram.col(i) *= slope;
-      at.gradient[i] *= slope;
-    }
-    return at;
+    return At({x, std::move(found.residuals)}, renew == Renew::kNone && !found.whole);
   }
 
   std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) override {
     std::vector<Eigen::VectorXd> all;
     for (const Eigen::VectorXd& x : points) all.push_back(ValuesOf(x));
-    return CostsOf(model_, all, model_.Simulate(all, horizon_), noise_);
+    const std::vector<RecordModel::Simulated> found = model_.Simulate(all, horizon_);
+    std::vector<double> costs;
+    tried_.clear();
+    for (std::size_t p = 0; p < points.size(); ++p) {
+      costs.push_back(std::numeric_limits<double>::infinity());
+      if (!found[p].ok) continue;
+      Tried one{points[p], WeightedResiduals(model_, all[p], found[p].records, noise_)};
+      if (!one.residuals.allFinite()) continue;
+      costs.back() = 0.5 * one.residuals.squaredNorm();
+      tried_.push_back(std::move(one));
+    }
+    return costs;
   }
 
   int SideBySide() const override { return rod::RodBatch::PreferredRods(); }
   int Room() const override {
     // What the differences leave of the lanes, or as many lanes more.
     const int lanes = rod::RodBatch::PreferredRods();
-    return lanes - 1 - model_.MostShown(Known(model_, jacobian_)) % lanes;
+    return lanes - 1 - model_.MostShown() % lanes;
   }
 
   bool GoOn(int iteration, double cost) override {
@@ -188,7 +168,7 @@ class RecordProblem : public LeastSquaresProblem {
   }
 
   const RecordJacobian& jacobian() const { return jacobian_; }
-  bool IsJacobianAt(const Eigen::VectorXd& x) const { return is_whole_ && linearised_at_ == x; }
+  bool IsJacobianAt(const Eigen::VectorXd& x) const { return is_whole_ && last_.x == x; }
   const Eigen::VectorXd& steps() const { return steps_; }
   const std::string& message() const { return message_; }
 
@@ -204,6 +184,42 @@ class RecordProblem : public LeastSquaresProblem {
   }
 
  private:
+  struct Tried {
+    Eigen::VectorXd x, residuals;
+  };
+
+  /// The derivatives are those of the last place, corrected by the way from there.
+  Linearisation MovedTo(const Tried& here) {
+    Eigen::VectorXd step = ValuesOf(here.x) - ValuesOf(last_.x);
+    for (int i = 0; i < step.size(); ++i) step[i] /= Of(i).scale;
+    jacobian_.Correct(step, here.residuals - last_.residuals);
+    is_whole_ = false;
+    return At(here, true);
+  }
+
+  Linearisation At(Tried here, bool kept) {
+    Linearisation at;
+    at.ok = true;
+    at.whole = is_whole_;
+    at.kept = kept;
+    at.cost = 0.5 * here.residuals.squaredNorm();
+    at.gram = jacobian_.Gram();
+    at.gradient = jacobian_.TransposeTimes(here.residuals);
+    // What no record shows is left alone: its derivatives are rounding.
+    const Eigen::VectorXd seen = jacobian_.SquaredNorms();
+    for (int i = 0; i < seen.size(); ++i)
+      if (seen[i] < kUnseen && jacobian_.priors()[i] == 0) at.gram(i, i) = 0;
+    for (int i = 0; i < seen.size(); ++i) {
+      const double slope = VariableSlope(Of(i), here.x[i]);
+      if (slope == 1) continue;
+      at.gram.row(i) *= slope;
+      at.gram.col(i) *= slope;
+      at.gradient[i] *= slope;
+    }
+    last_ = std::move(here);
+    return at;
+  }
+
   const Unknown& Of(int i) const { return model_.unknowns().all()[static_cast<std::size_t>(i)]; }
 
   const RecordModel& model_;
@@ -214,8 +230,9 @@ class RecordProblem : public LeastSquaresProblem {
   Eigen::VectorXd steps_;
   bool first_ = true;
   RecordJacobian jacobian_;
-  Eigen::VectorXd linearised_at_;
+  Tried last_;  // where it is
   bool is_whole_ = false;
+  std::vector<Tried> tried_;
   std::string message_;
 };
 
@@ -363,7 +380,7 @@ Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
                      const std::vector<Eigen::VectorXd>& others, const RecordJacobian* known) {
   Linearised result;
   std::vector<bool> left_out;
-  if (known) left_out = Known(model, *known);
+  if (known) left_out = known->Known();
   result.whole = std::count(left_out.begin(), left_out.end(), true) == 0;
   RecordModel::Derivatives found =
       model.Differentiate(values, horizon, difference, *steps, others, left_out);
@@ -373,7 +390,7 @@ Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
     result.message = found.at.message;
     if (!result.ok) return result;
     result.jacobian = WeightedJacobian(model, found, noise);
-    if (!result.whole) result.jacobian = Completed(result.jacobian, *known, left_out);
+    if (!result.whole) result.jacobian.Add(*known, left_out);
     bool unsuitable = false;
     for (int i = 0; i < steps->size(); ++i) {
       // In the record that shows it most: the root of the mean square of what the step does.
@@ -425,6 +442,10 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   const double by_sample = fit.loose ? kLoose : fit.to_noise ? 0 : kOfMisfit;
   options.small_gain = std::max(kSmallGain, by_sample * options.samples);
   options.aim = fit.aim;
+  options.finish = fit.finish;
+  if (!fit.known.records().empty())
+    options.renew =
+        fit.quick ? LeastSquaresProblem::Renew::kNone : LeastSquaresProblem::Renew::kSome;
   const LeastSquaresResult found = Minimise(problem.VariablesOf(values), options, &problem);
 
   FitResult result;

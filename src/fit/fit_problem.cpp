@@ -79,16 +79,19 @@ void FitProblem::Refine(const FitPoint& at) {
 
 FitPoint FitProblem::PointOf(const FitResult& fit) {
   FitPoint point;
+  if (!fit.ok) {
+    point.interrupted = fit.interrupted;
+    point.message = fit.message;
+    return point;
+  }
   if (fit.is_jacobian || fit.is_far) {
     RecordModel::Simulated found = model_->Simulate({fit.values}, model_->WholeHorizon()).front();
     if (found.ok) point = PointOf(fit.values, std::move(found.records), fit.jacobian);
   }
   if (!point.ok) point = PointAt(fit.values, fit.steps);
-  point.ok = point.ok && fit.ok;
   point.interrupted = fit.interrupted;
   point.at_minimum = fit.at_minimum;
   point.iterations = fit.iterations;
-  if (!fit.ok) point.message = fit.message;
   return point;
 }
 
@@ -163,8 +166,8 @@ Eigen::VectorXd FitProblem::StartFrom(const FitPoint& start,
   return values;
 }
 
-/// The start's derivatives by what concerns one experiment only, by the unknowns here.
-RecordJacobian FitProblem::OwnColumns(const FitPoint& start) const {
+/// The start's derivatives, by the unknowns here.
+RecordJacobian FitProblem::KnownFrom(const FitPoint& start) const {
   std::vector<RecordJacobian::Record> records;
   const auto& experiments = unknowns_->set().experiments;
   if (start.jacobian.records().size() != experiments.size() || start.noise != noise_) return {};
@@ -175,11 +178,12 @@ RecordJacobian FitProblem::OwnColumns(const FitPoint& start) const {
     own.columns.resize(from.columns.rows(), 0);
     for (std::size_t k = 0; k < from.unknowns.size(); ++k) {
       const Unknown& there = start.unknowns[static_cast<std::size_t>(from.unknowns[k])];
-      const int i = there.experiment < 0 ? -1 : unknowns_->Find(there.name);
+      const int i = unknowns_->Find(there.name);
       if (i < 0 || unknowns_->all()[static_cast<std::size_t>(i)].scale != there.scale) continue;
       const Eigen::Index columns = own.columns.cols();
       own.columns.conservativeResize(Eigen::NoChange, columns + 1);
       own.columns.col(columns) = from.columns.col(static_cast<Eigen::Index>(k));
+      if (IsHeldOut(e)) own.columns.col(columns).setZero();
       own.unknowns.push_back(i);
     }
     records.push_back(std::move(own));
@@ -187,24 +191,34 @@ RecordJacobian FitProblem::OwnColumns(const FitPoint& start) const {
   return RecordJacobian(std::move(records), Eigen::VectorXd::Zero(unknowns_->size()));
 }
 
-FitPoint FitProblem::FitFrom(const FitPoint& start, const std::map<std::string, double>& also) {
+FitResult FitProblem::WarmFit(const FitPoint& start, const std::map<std::string, double>& also,
+                              bool finish) {
   FitOptions options;
-  options.known = OwnColumns(start);
+  options.finish = finish;
+  options.quick = options_.quick || !finish;
+  options.known = KnownFrom(start);
   options.aim = 0.5 * options_.aim;
   const double samples = std::max(1.0, start.samples);
   options.to_noise = start.cost < kMuchNoise * samples;
   options.max_iterations = options_.max_iterations;
   for (const std::string& name : options_.held)
     if (const int i = unknowns_->Find(name); i >= 0) options.held.push_back(i);
-  const FitResult fit = Fit(*model_, StartFrom(start, also), model_->WholeHorizon(), noise_,
-                            options, options_.progress);
-  if (!fit.ok) {
-    FitPoint none;
-    none.interrupted = fit.interrupted;
-    none.message = fit.message;
-    return none;
-  }
-  return PointOf(fit);
+  return Fit(*model_, StartFrom(start, also), model_->WholeHorizon(), noise_, options,
+             options_.progress);
+}
+
+FitPoint FitProblem::FitFrom(const FitPoint& start, const std::map<std::string, double>& also) {
+  return PointOf(WarmFit(start, also, true));
+}
+
+FitPoint FitProblem::ValuesFrom(const FitPoint& start) {
+  const FitResult fit = WarmFit(start, {}, false);
+  FitPoint point;
+  point.ok = fit.ok;
+  point.interrupted = fit.interrupted;
+  point.unknowns = unknowns_->all();
+  point.values = fit.values;
+  return point;
 }
 
 Eigen::MatrixXd FitProblem::Predict(const FitPoint& at, int experiment) const {

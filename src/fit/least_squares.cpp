@@ -21,7 +21,8 @@ constexpr int kSmallGains = 3;
 // in a row.
 constexpr double kPromised = 4;
 constexpr int kOutOfReach = 3;
-// A step that gains less than this part of what was promised asks for new derivatives.
+// Where derivatives are kept: a step that gains less than this part of what was promised asks for
+// new ones.
 constexpr double kAsPromised = 0.3;
 // Of the largest diagonal entry: a direction that no residual shows is not followed.
 constexpr double kUnseen = 1e-14;
@@ -84,20 +85,25 @@ struct Best {
 LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOptions& options,
                             LeastSquaresProblem* problem) {
   using End = LeastSquaresResult::End;
+  using Renew = LeastSquaresProblem::Renew;
   LeastSquaresResult result;
   result.x = start.cwiseMax(options.lower).cwiseMin(options.upper);
   double damping = kFirstDamping;
   int small_gains = 0, out_of_reach = 0;
-  bool whole = false;
+  Renew way = options.renew, next_renew = way;
   std::vector<double> costs;
-  LeastSquaresProblem::Linearisation at = problem->Linearise(result.x, {}, false, &costs);
+  LeastSquaresProblem::Linearisation at = problem->Linearise(result.x, {}, way, &costs);
   if (!at.ok) return result;
-  // Nothing ends by derivatives that are not those of the place.
-  const auto completed = [&] {
-    if (at.whole) return false;
-    LeastSquaresProblem::Linearisation here = problem->Linearise(result.x, {}, true, &costs);
+  const auto renewed = [&](Renew renew) {
+    if (way == Renew::kNone) way = next_renew = Renew::kSome;
+    LeastSquaresProblem::Linearisation here = problem->Linearise(result.x, {}, renew, &costs);
     if (!here.ok) return false;
     at = std::move(here);
+    return true;
+  };
+  // Nothing ends by derivatives that are not those of the place.
+  const auto completed = [&] {
+    if (at.whole || !options.finish || !renewed(Renew::kAll)) return false;
     damping = kFirstDamping;
     small_gains = 0;
     return true;
@@ -145,7 +151,7 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
         if (completed()) break;
         return result;
       }
-      const bool first = tried <= damping;
+      const bool first = tried <= damping && way != Renew::kNone;
       std::vector<Eigen::VectorXd> points;
       std::vector<double> dampings, promised;
       const int count = first ? 1 + problem->Room() : problem->SideBySide();
@@ -162,20 +168,25 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
       Best best{enough};
       LeastSquaresProblem::Linearisation there;
       if (first) {
-        there = problem->Linearise(points[0], {points.begin() + 1, points.end()}, whole, &costs);
+        there =
+            problem->Linearise(points[0], {points.begin() + 1, points.end()}, next_renew, &costs);
         costs.insert(costs.begin(),
                      there.ok ? there.cost : std::numeric_limits<double>::infinity());
       } else {
         costs = problem->Costs(points);
       }
       for (std::size_t k = 0; k < points.size(); ++k) best.Offer(costs[k], static_cast<int>(k));
+      if (best.index < 0 && at.kept) {
+        if (!renewed(Renew::kSome)) return result;
+        break;
+      }
       if (best.index < 0) continue;
       // What is linearised already is taken if it gains nearly as much.
       if (there.ok && there.cost < enough &&
           at.cost - there.cost > kNearlyAsMuch * (at.cost - best.cost))
         best.index = 0;
       const auto k = static_cast<std::size_t>(best.index);
-      if (!there.ok || k > 0) there = problem->Linearise(points[k], {}, whole, &costs);
+      if (!there.ok || k > 0) there = problem->Linearise(points[k], {}, next_renew, &costs);
       if (!there.ok) {
         // It was simulated, its neighbours cannot be: it is as far as one gets.
         result.x = points[k];
@@ -183,7 +194,13 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
         return result;
       }
       const double gained = at.cost - there.cost;
-      whole = gained < kAsPromised * promised[k];
+      const bool poor = gained < kAsPromised * promised[k];
+      next_renew = poor && way == Renew::kSome ? Renew::kAll : way;
+      if (there.kept && poor) {
+        LeastSquaresProblem::Linearisation anew =
+            problem->Linearise(points[k], {}, Renew::kSome, &costs);
+        if (anew.ok) there = std::move(anew);
+      }
       small_gains = gained < std::max(options.small_gain * noise, of_misfit) ? small_gains + 1 : 0;
       result.x = points[k];
       damping = dampings[k];

@@ -17,14 +17,20 @@ class LeastSquaresProblem {
   struct Linearisation {
     bool ok = false;           ///< false: r or its derivatives cannot be found at x
     bool whole = true;         ///< false: some derivatives are from another x, near by
+    bool kept = false;         ///< all of them are
     double cost = 0;           ///< r^T r / 2
     Eigen::MatrixXd gram;      ///< J^T J
     Eigen::VectorXd gradient;  ///< J^T r
   };
-  /// At x; `costs` become those of `others`, infinite where there is none. Unless it is to be
-  /// `whole`, what hardly changes may be left as it was.
+  /// Which derivatives are found anew; the others are kept, corrected by what steps have shown.
+  enum class Renew {
+    kNone,  ///< but for those that are not known yet
+    kSome,  ///< those that change most on the way
+    kAll
+  };
+  /// At x; `costs` become those of `others`, infinite where there is none.
   virtual Linearisation Linearise(const Eigen::VectorXd& x,
-                                  const std::vector<Eigen::VectorXd>& others, bool whole,
+                                  const std::vector<Eigen::VectorXd>& others, Renew renew,
                                   std::vector<double>* costs) = 0;
   /// The costs at several points, infinite where there is none.
   virtual std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) = 0;
@@ -49,6 +55,10 @@ struct LeastSquaresOptions {
   /// A cost to be reached; zero: none. Where the linear model promises for long only a small part
   /// of what is missing, the search ends.
   double aim = 0;
+  /// Which derivatives are found anew on the way; at the minimum, all of them.
+  LeastSquaresProblem::Renew renew = LeastSquaresProblem::Renew::kAll;
+  /// False: a minimum by kept derivatives will do.
+  bool finish = true;
 };
 
 struct LeastSquaresResult {

@@ -41,4 +41,49 @@ Eigen::VectorXd RecordJacobian::SquaredNorms() const {
   return squares;
 }
 
+std::vector<bool> RecordJacobian::Known() const {
+  std::vector<bool> known(static_cast<std::size_t>(unknowns()), false);
+  for (const Record& record : records_)
+    for (const int i : record.unknowns) known[static_cast<std::size_t>(i)] = true;
+  return known;
+}
+
+RecordJacobian RecordJacobian::Only(const std::vector<bool>& which) const {
+  RecordJacobian some(std::vector<Record>(records_.size()), priors_);
+  for (std::size_t e = 0; e < records_.size(); ++e)
+    some.records_[e].columns.resize(records_[e].columns.rows(), 0);
+  some.Add(*this, which);
+  return some;
+}
+
+void RecordJacobian::Add(const RecordJacobian& other, const std::vector<bool>& which) {
+  for (std::size_t e = 0; e < records_.size(); ++e) {
+    Record& to = records_[e];
+    const Record& from = other.records_[e];
+    for (std::size_t k = 0; k < from.unknowns.size(); ++k) {
+      if (!which[static_cast<std::size_t>(from.unknowns[k])]) continue;
+      to.columns.conservativeResize(Eigen::NoChange, to.columns.cols() + 1);
+      to.columns.rightCols<1>() = from.columns.col(static_cast<Eigen::Index>(k));
+      to.unknowns.push_back(from.unknowns[k]);
+    }
+  }
+}
+
+void RecordJacobian::Correct(const Eigen::VectorXd& step, const Eigen::VectorXd& change) {
+  Eigen::Index row = 0;
+  for (Record& record : records_) {
+    const Eigen::Index rows = record.columns.rows();
+    Eigen::VectorXd own(record.columns.cols());
+    for (Eigen::Index k = 0; k < own.size(); ++k)
+      own[k] = step[record.unknowns[static_cast<std::size_t>(k)]];
+    const Eigen::VectorXd weighted =
+        own.cwiseProduct(record.columns.colwise().squaredNorm().transpose());
+    const double length = own.dot(weighted);
+    if (length > 0)
+      record.columns +=
+          (change.segment(row, rows) - record.columns * own) * (weighted / length).transpose();
+    row += rows;
+  }
+}
+
 }  // namespace cosserat_cable

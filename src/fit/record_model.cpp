@@ -326,8 +326,11 @@ std::vector<RecordModel::Simulated> RecordModel::SimulateWith(
 void RecordModel::TakeStepsFrom(const RecordModel& other) {
   options_ = other.options_;
   sharpness_ = other.sharpness_;
-  correction_ = other.correction_;
-  error_ = other.error_;
+  for (std::size_t e = 0; e < correction_.size(); ++e) {
+    const Eigen::Index rows = correction_[e].rows();
+    correction_[e] = other.correction_[e].topRows(rows);
+    error_[e] = other.error_[e].topRows(rows);
+  }
 }
 
 void RecordModel::TakeStepsFrom(const RecordModel& other, int experiment) {

@@ -10,18 +10,23 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Residuals 10 (y - x^2), 1 - x and one that nothing changes. May leave a derivative as it was.
+/// Residuals 10 (y - x^2), 1 - x and one that nothing changes. May keep a derivative.
 class Valley : public LeastSquaresProblem {
  public:
-  Valley(double floor, bool keeps) : floor_(floor), keeps_(keeps) {}
+  explicit Valley(double floor) : floor_(floor) {}
 
   Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
-                          bool whole, std::vector<double>* costs) override {
+                          Renew renew, std::vector<double>* costs) override {
     ++linearised;
-    if (whole || !keeps_ || !known_) slope_ = -20 * x[0];
     Linearisation at;
     at.ok = true;
-    at.whole = whole || !keeps_ || !known_;
+    at.kept = renew == Renew::kNone && known_;
+    at.whole = !at.kept;
+    if (at.whole)
+      slope_ = -20 * x[0];
+    else if (x[0] != last_[0])  // as the way from the last place has it
+      slope_ = (Residuals(x)[0] - Residuals(last_)[0] - 10 * (x[1] - last_[1])) / (x[0] - last_[0]);
+    last_ = x;
     known_ = true;
     Eigen::Matrix<double, 3, 2> jacobian;
     jacobian << slope_, 10, -1, 0, 0, 0;
@@ -50,8 +55,9 @@ class Valley : public LeastSquaresProblem {
   double Cost(const Eigen::VectorXd& x) const { return 0.5 * Residuals(x).squaredNorm(); }
 
   double floor_;
-  bool keeps_, known_ = false;
+  bool known_ = false;
   double slope_ = 0;
+  Eigen::VectorXd last_;
 };
 
 LeastSquaresOptions Wide() {
@@ -66,15 +72,16 @@ const Vector2d kStart(-1.2, 1);  // Rosenbrock's
 constexpr double kNear = 1e-4;
 
 TEST(LeastSquaresTest, ComesToTheEndOfTheValley) {
-  Valley valley(0, false);
+  Valley valley(0);
   const LeastSquaresResult found = Minimise(kStart, Wide(), &valley);
   EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
   EXPECT_LT((found.x - Vector2d(1, 1)).norm(), kNear);
 }
 
 TEST(LeastSquaresTest, EndsWhereWholeDerivativesSaySo) {
-  Valley valley(0, true);
+  Valley valley(0);
   LeastSquaresOptions options = Wide();
+  options.renew = LeastSquaresProblem::Renew::kNone;
   options.max_iterations = 200;
   const LeastSquaresResult found = Minimise(kStart, options, &valley);
   EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
@@ -83,7 +90,7 @@ TEST(LeastSquaresTest, EndsWhereWholeDerivativesSaySo) {
 
 TEST(LeastSquaresTest, DoesNotFollowTheValleyWhereItsAimLiesBelowTheFloor) {
   constexpr double kFloor = 30;
-  Valley whole(kFloor, false), ended(kFloor, false), reached(kFloor, false);
+  Valley whole(kFloor), ended(kFloor), reached(kFloor);
   LeastSquaresOptions options = Wide();
   options.small_gain = 1e-12;
   const LeastSquaresResult end = Minimise(kStart, options, &whole);

@@ -49,9 +49,8 @@ struct Linearised {
 };
 /// `steps`, of the differences in the unknowns' scales, are made to suit: large enough to rise
 /// above rounding, with an effect of some part of the noise at most. `again`: what they turned out
-/// to be unsuitable for is differentiated once more. `others` are simulated beside. Derivatives by
-/// what concerns one experiment only are taken from `known`, where they are there: they hardly
-/// change on the way, and there are many of them.
+/// to be unsuitable for is differentiated once more. `others` are simulated beside. Derivatives are
+/// taken from `known` where they are there.
 Linearised Linearise(const RecordModel& model, const Eigen::VectorXd& values,
                      const Horizon& horizon, const NoiseLevels& noise,
                      RecordModel::Difference difference, bool again, Eigen::VectorXd* steps,
@@ -80,8 +79,12 @@ struct FitOptions {
   std::vector<int> held;   ///< unknowns that stay
   int max_iterations = 0;  ///< 0: as many as it takes
   Eigen::VectorXd steps;   ///< of the differences, from a fit before; may be empty
-  /// From a fit before: derivatives by what concerns one experiment only; may be empty.
+  /// Derivatives from a fit before; may be empty. They serve on the way, as long as they lead on.
   RecordJacobian known;
+  /// All of them do, corrected on the way; otherwise those by what concerns one experiment only:
+  /// they change least, and there are many of them.
+  bool quick = false;
+  bool finish = true;  ///< false: an end by such derivatives will do
   /// Half a sum of squares that is to be reached: what is far from it for long does not go on.
   double aim = 0;
 };

@@ -29,6 +29,7 @@ struct FitProblemOptions {
   NoiseLevels noise;              ///< empty: SetNoise of the set
   std::vector<std::string> held;  ///< unknowns that stay in warm fits
   int max_iterations = 0;         ///< of a warm fit; 0: as many as it takes
+  bool quick = false;             ///< of a warm fit: a few steps by the start's derivatives
   double aim = 0;                 ///< of a warm fit: the sum of squares to be reached; 0: none
   std::function<bool()> stop;
   FitProgress progress;
@@ -82,8 +83,11 @@ class FitProblem {
   /// Found anew at a point: as fine as the larger of the noise and what is left there asks.
   void Refine(const FitPoint& at);
 
-  /// Of warm fits from now on; 0: as many as it takes.
-  void SetMaxIterations(int count) { options_.max_iterations = count; }
+  /// Warm fits from now on are thorough, with so many iterations; 0: as many as it takes.
+  void SetMaxIterations(int count) {
+    options_.max_iterations = count;
+    options_.quick = false;
+  }
   /// The sum of squares that a warm fit is to reach, to be worth its end; 0: none.
   void SetAim(double cost) { options_.aim = cost; }
 
@@ -92,6 +96,8 @@ class FitProblem {
   /// From another problem's point: unknowns of the same name start there, `also` by name, the
   /// others at their own start.
   FitPoint FitFrom(const FitPoint& start, const std::map<std::string, double>& also = {});
+  /// The same, but nothing is found out at the end except the values.
+  FitPoint ValuesFrom(const FitPoint& start);
   /// The point itself, with derivatives.
   FitPoint At(const Eigen::VectorXd& values);
   /// The values with which FitFrom begins.
@@ -108,7 +114,8 @@ class FitProblem {
   FitPoint PointAt(const Eigen::VectorXd& values, Eigen::VectorXd steps);
   FitPoint PointOf(const Eigen::VectorXd& values, Records simulated, RecordJacobian jacobian) const;
   bool IsHeldOut(std::size_t experiment) const;
-  RecordJacobian OwnColumns(const FitPoint& start) const;
+  RecordJacobian KnownFrom(const FitPoint& start) const;
+  FitResult WarmFit(const FitPoint& start, const std::map<std::string, double>& also, bool finish);
 
   FitProblemOptions options_;
   std::unique_ptr<Unknowns> unknowns_;

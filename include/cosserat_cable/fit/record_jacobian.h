@@ -32,6 +32,19 @@ class RecordJacobian {
   /// Squares of the columns' norms, records only.
   Eigen::VectorXd SquaredNorms() const;
 
+  /// By unknown, whether derivatives by it are there.
+  std::vector<bool> Known() const;
+  /// Those by some of the unknowns.
+  RecordJacobian Only(const std::vector<bool>& which) const;
+  /// Adds those by some of the unknowns, which are not here yet, from another Jacobian of the same
+  /// records.
+  void Add(const RecordJacobian& other, const std::vector<bool>& which);
+
+  /// Corrected by what a step did to the residuals: the least change with which it says so, each
+  /// unknown measured by what it does to the record (Broyden 1965). `step` in units of the scales;
+  /// `change` in this Jacobian's rows.
+  void Correct(const Eigen::VectorXd& step, const Eigen::VectorXd& change);
+
  private:
   std::vector<Record> records_;
   Eigen::VectorXd priors_;

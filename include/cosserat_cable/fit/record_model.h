@@ -87,7 +87,8 @@ class RecordModel {
   /// @return the largest correction, in parts of its channel's range
   double Refine(const Eigen::VectorXd& values, const NoiseLevels& noise);
 
-  /// What Refine found at another model of the same set, its fineness included.
+  /// What Refine found at another model of the same set, its fineness included. Records here may
+  /// end earlier.
   void TakeStepsFrom(const RecordModel& other);
   /// The same for a set of one experiment, which is this one of the other's.
   void TakeStepsFrom(const RecordModel& other, int experiment);
