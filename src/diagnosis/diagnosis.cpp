@@ -56,13 +56,14 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
     work.Continue(0.6);
     work.RefineBest();
   }
+  if (work.Judged().verdict != Verdict::kUnexplained) work.FitParts();
   const Judgement first = work.Judged();
   if (work.Stopping()) return work.Report();
   if (first.verdict == Verdict::kUnexplained) {
     for (const int single : BestSingles(work, static_cast<int>(first.rejected.size()), kPairsFrom))
       work.FitCandidates(work.ScreenAround(work.model(single), "screening of pairs"),
                          &work.model(single), kMostPairs, 0.6);
-    work.FitParts(work.Judged());
+    work.FitParts();
     work.Continue(0.7);
     work.RefineBest();
   } else if (first.verdict == Verdict::kNamed && !work.LeavesNothing(first.best)) {

@@ -45,6 +45,32 @@ std::string NameOf(const std::vector<Trial>& trials) {
   return name;
 }
 
+/// Of a component, whatever its size.
+std::string NameOf(const Trial& trial, const TrialComponent& component) {
+  std::string name = trial.cause;
+  for (const std::string& channel : trial.channels) name += " " + channel;
+  for (const HypothesisNumber& number : component.numbers)
+    name += " " + number.path + "=" + FormatNumber(number.times);
+  return name;
+}
+
+/// The numbers of a simpler cause among those of a trial.
+Trial PartOf(const Trial& larger, const std::string& simpler) {
+  const std::string own = "extensions." + simpler + ".";
+  Trial part;
+  part.cause = simpler;
+  for (const TrialComponent& component : larger.components) {
+    TrialComponent kept = component;
+    kept.numbers.erase(std::remove_if(kept.numbers.begin(), kept.numbers.end(),
+                                      [&](const HypothesisNumber& number) {
+                                        return number.path.rfind(own, 0) != 0;
+                                      }),
+                       kept.numbers.end());
+    if (!kept.numbers.empty()) part.components.push_back(kept);
+  }
+  return part;
+}
+
 }  // namespace
 
 std::vector<std::string> FittedTrial::causes() const {
@@ -158,7 +184,14 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
                               }),
                trials.end());
   const SimulationCount before = base.problem->count();
+  for (Trial& trial : trials)
+    for (TrialComponent& component : trial.components)
+      if (const auto size = sizes_.find(NameOf(trial, component)); size != sizes_.end())
+        component.size = size->second;
   std::vector<Screened> screened = Screen(*base.problem, base.point, std::move(trials));
+  for (const Screened& one : screened)
+    for (const TrialComponent& component : one.trial.components)
+      sizes_[NameOf(one.trial, component)] = component.size;
   if (base.trials.empty())
     for (const Screened& one : screened)
       promises_[one.trial.cause] = std::max(promises_[one.trial.cause], one.drop);
@@ -183,6 +216,7 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   FitProblemOptions options = ProblemOptions();
   options.max_iterations = kIterations;
   options.aim = Aim();
+  options.quick = true;
   options.progress = [this](const std::string&) { return !Stopping(); };
   Problems problems;
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
@@ -330,16 +364,24 @@ void DiagnosisWork::FitFromSimpler() {
   FindCorrelations();
 }
 
-void DiagnosisWork::FitParts(const Judgement& judgement) {
+void DiagnosisWork::FitParts() {
+  const Judgement judgement = Judged();
+  if (judgement.best == 0) return;
   const FittedTrial& whole = model(judgement.best);
-  if (whole.trials.size() < 2) return;
-  const std::vector<Trial> trials = whole.trials;
-  for (const Trial& trial : trials) {
-    const bool fitted = std::any_of(models_.begin(), models_.end(), [&](const auto& one) {
-      return one->causes() == std::vector<std::string>{trial.cause};
-    });
-    if (fitted || OutOfTime() || !Tell("without the others: " + trial.cause, 0.7)) continue;
-    // From where it stands among the others.
+  std::vector<Trial> parts;
+  if (whole.trials.size() > 1) {
+    parts = whole.trials;
+  } else {
+    const Trial& larger = whole.trials.front();
+    for (const std::string& simpler : FindCause(larger.cause)->contains) {
+      const Trial part = PartOf(larger, simpler);
+      if (!part.components.empty()) parts.push_back(part);
+    }
+  }
+  for (const Trial& trial : parts) {
+    if (IsExplained(trial.cause, nullptr)) continue;
+    if (OutOfTime() || !Tell("without the rest: " + trial.cause, 0.7)) return;
+    // From where it stands in the whole, which may lie beyond what its own search has seen.
     std::unique_ptr<FittedTrial> alone = FitOne({trial}, model(judgement.best));
     if (!alone) continue;
     Charge("removal", alone->problem->count());
@@ -362,6 +404,7 @@ void DiagnosisWork::RefineBest() {
     model->refined = true;
     const SimulationCount before = model->problem->count();
     model->problem->Refine(model->point);
+    model->problem->SetMaxIterations(kMoreIterations);
     FitPoint point = model->problem->FitFrom(model->point);
     Charge("finer steps", model->problem->count() - before);
     if (point.ok && !point.interrupted) model->point = std::move(point);

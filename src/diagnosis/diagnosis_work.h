@@ -44,8 +44,9 @@ class DiagnosisWork {
   void Continue(double part);
   /// Fits causes that contain a simpler one from where that one was found.
   void FitFromSimpler();
-  /// Fits what the best model is made of by itself, where that is still to do.
-  void FitParts(const Judgement& judgement);
+  /// Fits what the best model is made of by itself, or the simpler causes that it contains, from
+  /// where it ended.
+  void FitParts();
   /// The steps of the best models made as fine as what is left there asks, and they are fitted
   /// again.
   void RefineBest();
@@ -90,6 +91,7 @@ class DiagnosisWork {
   MotionScales scales_;
   std::vector<std::unique_ptr<FittedTrial>> models_;  // the first is the plain one
   std::map<std::string, double> promises_;            // by cause, in noise variances
+  std::map<std::string, double> sizes_;               // of components that show faintly
   std::set<std::string> tried_;                       // causes that were fitted alone
   std::set<std::string> begun_from_simpler_;          // and from a simpler one
   std::map<std::string, std::string> failures_;       // by cause, why it could not be fitted

@@ -84,7 +84,7 @@ Records OfLastPart(const FittedModel& model, FitProblemOptions options) {
   FitProblem fit(first, options, &problems);
   FitProblem whole(model.set, options, &problems);
   if (!problems.empty()) return {Eigen::MatrixXd()};
-  fit.ShareShapes(model.problem);
+  fit.ShareSteps(model.problem);
   const FitPoint found = fit.FitFrom(model.point);
   if (!found.ok) return {Eigen::MatrixXd()};
   whole.ShareSteps(model.problem);
@@ -142,7 +142,7 @@ Records ExactHeldOut(const FittedModel& model, const FitProblemOptions& options)
     predicted.emplace_back();
     if (!problems.empty()) continue;
     problem.ShareSteps(model.problem);
-    const FitPoint found = problem.FitFrom(model.point);
+    const FitPoint found = problem.ValuesFrom(model.point);
     if (found.ok) predicted.back() = problem.Predict(found, e);
   }
   return predicted;
