@@ -165,6 +165,11 @@ class Diagnose(unittest.TestCase):
                 verdict = json.load(file)
             self.assertTrue(verdict['interrupted'])
             self.assertTrue(math.isfinite(verdict['baseline']['times_noise']))
+        if os.path.exists(self.path('answer', 'fits.json')):
+            verdict, out = self.diagnose()
+            self.assertEqual(verdict['causes'], ['section_friction'], out)
+            self.assertIn('taken over', ' '.join(verdict['warnings']))
+            self.assertFalse(os.path.exists(self.path('answer', 'fits.json')))
 
 
 if __name__ == '__main__':
