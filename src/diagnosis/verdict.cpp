@@ -31,6 +31,8 @@ std::string Times(const Contender& contender) {
 
 // Part of what a simpler model leaves beyond the noise that is left by one which is worth its more.
 constexpr double kHardlyAny = 0.5;
+// Part of what a simpler model leaves that is too little to be worth more.
+constexpr double kOfLeft = 0.1;
 // Part of the noise's sum of squares that a law may be wrong by in form.
 constexpr double kOfAdequate = 0.05;
 
@@ -81,7 +83,8 @@ class Court {
     // Far from the noise, predictions by derivatives say nothing.
     if (!left.adequate && Of(larger).adequacy.excess() < kHardlyAny * left.excess()) return true;
     if (!(heldout_(simpler, larger).value > 0)) return false;
-    return !left.adequate || difference_(simpler, larger).value > kOfAdequate * left.expected;
+    const double gained = difference_(simpler, larger).value;
+    return gained > (left.adequate ? kOfAdequate * left.expected : kOfLeft * left.excess());
   }
 
   /// The best fit; then the simplest of what it contains and does not clearly beat.
