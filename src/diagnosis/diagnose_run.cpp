@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
+#include <stdexcept>
 
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
@@ -72,7 +73,7 @@ ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
       return !Interrupted();
     };
     diagnosis = Diagnose(set, diagnosis_options, &problems);
-  } catch (const std::exception& failure) {
+  } catch (const std::runtime_error& failure) {
     std::cerr << failure.what() << "\n";
     return kExitFileTrouble;
   }

@@ -51,10 +51,14 @@ FitMemory::FitMemory(const std::string& file, const MeasurementSet& set) : file_
   if (file_.empty()) return;
   set_ = FingerprintOf(set);
   std::ifstream stream(file_);
-  const json all = json::parse(stream, nullptr, false);
-  if (!all.is_object() || all.value("set", "") != set_) return;
-  for (const auto& [key, fit] : all.at("fits").items())
-    fits_[key] = {fit.at("at_minimum"), fit.at("values")};
+  try {
+    const json all = json::parse(stream);
+    if (all.at("set") != set_) return;
+    for (const auto& [key, fit] : all.at("fits").items())
+      fits_[key] = {fit.at("at_minimum"), fit.at("values")};
+  } catch (const json::exception&) {
+    fits_.clear();  // what cannot be read is fitted again
+  }
   begun_with_ = static_cast<int>(fits_.size());
 }
 

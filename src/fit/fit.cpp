@@ -90,6 +90,7 @@ class RecordProblem : public LeastSquaresProblem {
         progress_(progress),
         samples_(samples),
         steps_(fit.steps),
+        keeps_(!fit.known.records().empty()),
         jacobian_(fit.known) {
     first_ = steps_.size() == 0;
     if (first_) steps_ = model.SmallSteps();
@@ -139,7 +140,8 @@ class RecordProblem : public LeastSquaresProblem {
   int Room() const override {
     // What the differences leave of the lanes, or as many lanes more.
     const int lanes = rod::RodBatch::PreferredRods();
-    return lanes - 1 - model_.MostShown() % lanes;
+    const std::vector<bool> kept = keeps_ ? ConcernOne(model_.unknowns()) : std::vector<bool>();
+    return lanes - 1 - model_.MostShown(kept) % lanes;
   }
 
   bool GoOn(int iteration, double cost) override {
@@ -229,6 +231,7 @@ class RecordProblem : public LeastSquaresProblem {
   double samples_;
   Eigen::VectorXd steps_;
   bool first_ = true;
+  bool keeps_;  // derivatives on the way
   RecordJacobian jacobian_;
   Tried last_;  // where it is
   bool is_whole_ = false;

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <string>
 
 namespace cosserat_cable {
 namespace {
@@ -63,6 +65,14 @@ TEST_F(FitMemoryTest, ForgetsAFileOfOtherRecords) {
 
 TEST_F(FitMemoryTest, TakesABrokenFileForNone) {
   Write("fits.json", "{\"set\": ");
+  EXPECT_EQ(FitMemory(File(), set_).begun_with(), 0);
+  // Whole, of this set, but of another form.
+  FitMemory(File(), set_).Add("plain", Point(0.25));
+  std::ifstream file(File());
+  std::string text((std::istreambuf_iterator<char>(file)), {});
+  const std::size_t place = text.find("0.25");
+  ASSERT_NE(place, std::string::npos);
+  Write("fits.json", text.replace(place, 4, "null"));
   EXPECT_EQ(FitMemory(File(), set_).begun_with(), 0);
 }
 
