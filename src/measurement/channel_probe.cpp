@@ -7,10 +7,26 @@
 #include "pull.h"
 
 namespace cosserat_cable {
+namespace {
+
+bool ShowsPoint(Quantity quantity) {
+  return quantity == Quantity::kPosition || quantity == Quantity::kVelocity ||
+         quantity == Quantity::kAcceleration;
+}
+
+}  // namespace
 
 ChannelProbe::ChannelProbe(const std::vector<Channel>& channels,
                            const std::vector<ChannelSensor>& sensors)
-    : channels_(channels), sensors_(sensors) {}
+    : channels_(channels), sensors_(sensors), place_of_(channels.size()) {
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (!ShowsPoint(channels[c].quantity)) continue;
+    const auto known = std::find(places_.begin(), places_.end(), channels[c].s);
+    place_of_[c] = static_cast<std::size_t>(known - places_.begin());
+    if (known == places_.end()) places_.push_back(channels[c].s);
+  }
+  points_.resize(places_.size());
+}
 
 int ChannelProbe::DerivativeOrder(Quantity quantity) {
   switch (quantity) {
@@ -47,6 +63,7 @@ void ChannelProbe::Sample(const Rig& rig, Eigen::Ref<Eigen::VectorXd> values) {
   twist_.clear();
   const rod::Rod& rod = rig.rod();
   const Pose& a = rig.clamp_a();
+  for (std::size_t k = 0; k < places_.size(); ++k) points_[k] = PointOn(rod, places_[k]);
   for (std::size_t c = 0; c < channels_.size(); ++c) {
     const Channel& channel = channels_[c];
     const auto component = [&](const Eigen::Vector3d& v_W) {
@@ -58,7 +75,7 @@ void ChannelProbe::Sample(const Rig& rig, Eigen::Ref<Eigen::VectorXd> values) {
       case Quantity::kPosition:
       case Quantity::kVelocity:
       case Quantity::kAcceleration: {
-        const Eigen::Vector3d p = PointOn(rod, channel.s);
+        const Eigen::Vector3d& p = points_[place_of_[c]];
         values[c] = component(channel.in_frame_a ? Eigen::Vector3d(p - a.p) : p);
         break;
       }

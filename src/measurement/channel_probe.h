@@ -30,8 +30,11 @@ class ChannelProbe {
 
   const std::vector<Channel>& channels_;
   std::vector<ChannelSensor> sensors_;
-  std::vector<double>
-      twist_;  // scratch: rotation about the tangent from clamp a to each node [rad]
+  std::vector<double> places_;           // arc lengths of all points that channels show [m]
+  std::vector<std::size_t> place_of_;    // by channel that shows a point
+  std::vector<Eigen::Vector3d> points_;  // scratch: where the places are [m]
+  // Scratch: rotation about the tangent from clamp a to each node [rad].
+  std::vector<double> twist_;
 };
 
 }  // namespace cosserat_cable

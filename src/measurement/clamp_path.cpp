@@ -6,6 +6,17 @@
 #include "cosserat_cable/math/rotation.h"
 
 namespace cosserat_cable {
+namespace {
+
+bool MoveAlike(const std::optional<ClampMotionFault>& one,
+               const std::optional<ClampMotionFault>& other) {
+  if (!one || !other) return !one && !other;
+  return one->amplitude == other->amplitude && one->phase == other->phase &&
+         one->bracket_frequency == other->bracket_frequency &&
+         one->bracket_damping == other->bracket_damping && one->tilt == other->tilt;
+}
+
+}  // namespace
 
 ClampPath::ClampPath(const EndCondition& end, const std::optional<ClampMotionFault>& fault)
     : fixed_(end.pose), curve_(std::numeric_limits<double>::infinity()) {
@@ -33,7 +44,13 @@ ClampPath::ClampPath(const EndCondition& end, const std::optional<ClampMotionFau
   }
 }
 
-Motion ClampPath::At(double t) {
+const Motion& ClampPath::At(double t) {
+  if (t != last_time_) last_ = Evaluated(t);
+  last_time_ = t;
+  return last_;
+}
+
+Motion ClampPath::Evaluated(double t) {
   if (!moving_) return Motion::Resting(fixed_);
   const Motion motion = bracket_ ? bracket_->At(t) : curve_.Follow(t + shift_);
   return tilt_ ? motion * Pose{Eigen::Vector3d::Zero(), *tilt_} : motion;
@@ -44,6 +61,13 @@ Pose ClampPath::AtStep(int step) const {
   Pose pose = rows_[std::min<std::size_t>(static_cast<std::size_t>(step), rows_.size() - 1)];
   if (tilt_) pose.q = (pose.q * *tilt_).normalized();
   return pose;
+}
+
+std::shared_ptr<ClampPath> SharedPaths::With(const std::optional<ClampMotionFault>& fault) {
+  for (const Known& one : known_)
+    if (MoveAlike(one.fault, fault)) return one.path;
+  known_.push_back({fault, std::make_shared<ClampPath>(end_, fault)});
+  return known_.back().path;
 }
 
 }  // namespace cosserat_cable

@@ -235,6 +235,7 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
                                                 const std::vector<Specimen>& specimens,
                                                 const SimulationOptions& options) {
   std::vector<SimulatedRecord> results(specimens.size());
+  RigPaths paths(experiment);
   const int samples = SamplesUntil(experiment.record.t, options.until);
   const auto together = static_cast<std::size_t>(rod::RodBatch::PreferredRods());
   for (std::size_t first = 0; first < specimens.size(); first += together) {
@@ -247,7 +248,7 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
       }
       const Faults& faults = specimens[k].faults;
       Run run;
-      run.rig = std::make_unique<Rig>(experiment, specimens[k], options.elements);
+      run.rig = std::make_unique<Rig>(experiment, specimens[k], options.elements, &paths);
       run.result = &results[k];
       run.times.assign(experiment.record.t.begin(), experiment.record.t.begin() + samples);
       if (!experiment.quasi_static()) run.times = MotionTimes(run.times, faults.clock);
@@ -313,7 +314,8 @@ RefinedRecord SimulateRefined(const Experiment& experiment, const Specimen& spec
 std::shared_ptr<const std::vector<Pose>> FindRest(const Experiment& experiment,
                                                   const Specimen& specimen, int elements,
                                                   const std::vector<Pose>* near) {
-  Rig rig(experiment, specimen, elements);
+  RigPaths paths(experiment);
+  Rig rig(experiment, specimen, elements, &paths);
   std::string message;
   if (!rig.Start(&message, near)) return nullptr;
   return std::make_shared<const std::vector<Pose>>(rig.rest());
@@ -323,7 +325,8 @@ std::vector<SwingShape> FindSwingShapes(const Experiment& experiment, const Spec
                                         int elements, int count) {
   Specimen resting = specimen;
   resting.swing = Swing();
-  Rig rig(experiment, resting, elements);
+  RigPaths paths(experiment);
+  Rig rig(experiment, resting, elements, &paths);
   std::string message;
   std::vector<SwingShape> shapes;
   if (!rig.Start(&message)) return shapes;

@@ -55,12 +55,13 @@ std::vector<Pose> Resampled(const std::vector<Pose>& shape, int elements) {
 
 }  // namespace
 
-Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements)
+Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements, RigPaths* paths)
     : experiment_(experiment),
       specimen_(specimen),
       elements_(elements),
-      path_a_(experiment.a, specimen.faults.a),
-      path_b_(experiment.b, specimen.faults.b),
+      path_a_(paths->a.With(specimen.faults.a)),
+      path_b_(paths->b.With(specimen.faults.b)),
+      tilt_a_(RotationExp(specimen.tilt_a)),
       drift_(DriftOf(specimen.cable)) {
   if (drift_ && !experiment.record.t.empty()) {
     const std::vector<double>& t = experiment.record.t;
@@ -114,9 +115,7 @@ rod::Rod Rig::WithSlidesHeld() const {
   return held;
 }
 
-Pose Rig::TiltedA(const Pose& X_WC) const {
-  return {X_WC.p, (X_WC.q * RotationExp(specimen_.tilt_a)).normalized()};
-}
+Pose Rig::TiltedA(const Pose& X_WC) const { return {X_WC.p, (X_WC.q * tilt_a_).normalized()}; }
 
 void Rig::SetLoads(double t) {
   const ExperimentLoad& load = experiment_.load;
@@ -197,8 +196,8 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   const double t = experiment_.start_time();
   const bool statics = experiment_.quasi_static();
   const StartCondition& start = experiment_.start;
-  a_ = TiltedA(statics ? path_a_.AtStep(0) : path_a_.At(t).X);
-  b_ = statics ? path_b_.AtStep(0) : path_b_.At(t).X;
+  a_ = TiltedA(statics ? path_a_->AtStep(0) : path_a_->At(t).X);
+  b_ = statics ? path_b_->AtStep(0) : path_b_->At(t).X;
   if (!experiment_.load.samples.empty()) SetLoads(t);
 
   // End b is held about its axis until it is let go.
@@ -246,8 +245,8 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
     swung.Velocities(&v, &omega);
     rod_->SetVelocities(v, omega);
   }
-  if (!statics && path_a_.moves()) {
-    Motion motion = path_a_.At(t);
+  if (!statics && path_a_->moves()) {
+    Motion motion = path_a_->At(t);
     motion.X = a_;
     rod_->AddRigidMotion(motion);
   }
@@ -262,14 +261,14 @@ void Rig::ApplyDrift(double t) {
 
 void Rig::MoveTo(double t) {
   ApplyDrift(t);
-  if (path_a_.moves()) a_ = TiltedA(path_a_.At(t).X);
-  if (path_b_.moves()) b_ = path_b_.At(t).X;
+  if (path_a_->moves()) a_ = TiltedA(path_a_->At(t).X);
+  if (path_b_->moves()) b_ = path_b_->At(t).X;
   if (!experiment_.load.file.empty()) SetLoads(t);
 }
 
 bool Rig::Equilibrate(int step, std::string* message) {
-  a_ = TiltedA(path_a_.AtStep(step));
-  if (path_b_.moves()) b_ = path_b_.AtStep(step);
+  a_ = TiltedA(path_a_->AtStep(step));
+  if (path_b_->moves()) b_ = path_b_->AtStep(step);
   if (!experiment_.load.file.empty()) SetLoads(step);
   ApplyDrift(step);
   rod_->SetClamps(a_, b_);

@@ -15,10 +15,16 @@
 
 namespace cosserat_cable {
 
+/// The clamps' paths of an experiment's rigs that are stepped by one thread.
+struct RigPaths {
+  explicit RigPaths(const Experiment& experiment) : a(experiment.a), b(experiment.b) {}
+  SharedPaths a, b;
+};
+
 class Rig {
  public:
   /// The experiment outlives the rig.
-  Rig(const Experiment& experiment, const Specimen& specimen, int elements);
+  Rig(const Experiment& experiment, const Specimen& specimen, int elements, RigPaths* paths);
 
   /// Brings the rod to the start. False: `message` says why not. `near`: a shape near its rest to
   /// look from first, at any number of nodes; may be null.
@@ -55,7 +61,8 @@ class Rig {
   const Experiment& experiment_;
   Specimen specimen_;
   int elements_;
-  ClampPath path_a_, path_b_;
+  std::shared_ptr<ClampPath> path_a_, path_b_;
+  Eigen::Quaterniond tilt_a_;
   Pose a_, b_;
   std::vector<Pose> rest_;
   std::optional<rod::PointLoads> loads_;
