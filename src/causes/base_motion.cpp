@@ -6,7 +6,10 @@ namespace cosserat_cable {
 
 Cause BaseMotionCause() {
   using Role = HypothesisNumber::Role;
+  // Of factors and angles.
+  constexpr double kLeast = 1e-4;
   Cause cause;
+  cause.least = kLeast;
   cause.name = "base_motion";
   cause.words = "a clamp that moves otherwise than its file says";
   for (const std::string clamp : {"faults.base_motion.a.", "faults.base_motion.b."}) {

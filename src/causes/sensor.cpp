@@ -5,7 +5,10 @@ namespace cosserat_cable {
 
 Cause SensorCause() {
   using Role = HypothesisNumber::Role;
+  // Of factors and angles.
+  constexpr double kLeast = 1e-4;
   Cause cause;
+  cause.least = kLeast;
   cause.name = "sensor";
   cause.words = "a sensor that is scaled, tilted or slow";
   cause.hypotheses = {

@@ -30,7 +30,11 @@ constexpr double kNoiseSettled = 0.03;
 // How many of the best models are simulated more finely; and the misfit, in times the noise's
 // variance, that takes no precision to see.
 constexpr int kRefined = 3;
+// Rounds of ever finer steps, as long as they move what is fitted.
+constexpr int kSharper = 4;
 constexpr double kMuchLeft = 36;
+// A factor that the plain model has changed a stiffness by, from which a cause may not find back.
+constexpr double kRanAway = 3;
 const char* const kPlain = "plain";
 
 /// Of trials with all that they begin with.
@@ -84,6 +88,12 @@ int FittedTrial::parameters() const {
   int count = 0;
   for (const Trial& trial : trials) count += static_cast<int>(trial.FreePaths().size());
   return count;
+}
+
+bool FittedTrial::IsFaint() const {
+  return std::any_of(trials.begin(), trials.end(), [&](const Trial& trial) {
+    return trial.IsFaint([&](const std::string& path) { return point.ValueOf(path); });
+  });
 }
 
 DiagnosisWork::DiagnosisWork(const MeasurementSet& set, const DiagnosisOptions& options)
@@ -209,7 +219,7 @@ double DiagnosisWork::Aim() const {
 }
 
 std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& trials,
-                                                   const FittedTrial& from) {
+                                                   const FittedTrial& from, const Also& also) {
   auto fitted = std::make_unique<FittedTrial>();
   fitted->trials = trials;
   fitted->set = WithTrials(set_, trials);
@@ -222,15 +232,37 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
   if (!problems.empty()) return nullptr;
   fitted->problem->ShareSteps(*from.problem);
-  const std::string key = "from " + NameOf(from.trials) + " to " + NameOf(trials);
+  const std::string key = "from " + NameOf(from.trials) + (also.empty() ? "" : " and the set") +
+                          " to " + NameOf(trials);
   if (const FitMemory::Fit* known = memory_.Find(key)) {
     fitted->point = fitted->problem->At(fitted->problem->StartFrom({}, known->values));
     fitted->point.at_minimum = known->at_minimum;
   } else {
-    fitted->point = fitted->problem->FitFrom(from.point);
+    fitted->point = fitted->problem->FitFrom(from.point, also);
     if (fitted->point.ok && !fitted->point.interrupted) memory_.Add(key, fitted->point);
   }
   return fitted;
+}
+
+/// A simpler model that has run away, to where nothing moves the records, say, is no place to begin
+/// from: then the set's own values are tried as well.
+std::unique_ptr<FittedTrial> DiagnosisWork::FitOneOrFromTheSet(const std::vector<Trial>& trials,
+                                                               const FittedTrial& from) {
+  std::unique_ptr<FittedTrial> fitted = FitOne(trials, from);
+  if (!fitted || fitted->point.interrupted) return fitted;
+  if (fitted->point.ok && AdequacyOf(fitted->point, noise_).adequate) return fitted;
+  Also also;
+  for (std::size_t i = 0; i < from.point.unknowns.size(); ++i) {
+    const Unknown& u = from.point.unknowns[i];
+    if (u.kind != Unknown::Kind::kCable || u.damping || !u.start_known || !(u.start > 0)) continue;
+    const double ratio = from.point.values[static_cast<Eigen::Index>(i)] / u.start;
+    if (!(ratio < kRanAway && ratio > 1 / kRanAway)) also[u.name] = u.start;
+  }
+  if (also.empty() || OutOfTime()) return fitted;
+  std::unique_ptr<FittedTrial> other = FitOne(trials, from, also);
+  if (!other || !other->point.ok || other->point.interrupted) return fitted;
+  return fitted->point.ok && fitted->point.cost <= other->point.cost ? std::move(fitted)
+                                                                     : std::move(other);
 }
 
 /// Whether one of the causes leaves nothing but noise.
@@ -294,7 +326,7 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
         return;
       std::vector<Trial> trials = beside ? beside->trials : std::vector<Trial>();
       trials.push_back(one->trial);
-      std::unique_ptr<FittedTrial> fitted = FitOne(trials, from);
+      std::unique_ptr<FittedTrial> fitted = FitOneOrFromTheSet(trials, from);
       if (!fitted) continue;
       Charge(stage, fitted->problem->count());
       if (fitted->point.ok && !fitted->point.interrupted)
@@ -403,11 +435,15 @@ void DiagnosisWork::RefineBest() {
     if (model->refined) continue;
     model->refined = true;
     const SimulationCount before = model->problem->count();
-    model->problem->Refine(model->point);
     model->problem->SetMaxIterations(kMoreIterations);
-    FitPoint point = model->problem->FitFrom(model->point);
+    for (int round = 0; round < kSharper; ++round) {
+      model->problem->Refine(model->point);
+      FitPoint point = model->problem->FitFrom(model->point);
+      if (!point.ok || point.interrupted) break;
+      model->point = std::move(point);
+      if (OutOfTime() || !model->problem->Sharpen(model->point)) break;
+    }
     Charge("finer steps", model->problem->count() - before);
-    if (point.ok && !point.interrupted) model->point = std::move(point);
   }
   FindCorrelations();
 }
@@ -432,7 +468,8 @@ bool DiagnosisWork::LeavesNothing(int i) const {
 Judgement DiagnosisWork::Judged() const {
   std::vector<Contender> contenders;
   for (const auto& model : models_)
-    contenders.push_back({model->causes(), model->parameters(), AdequacyOf(model->point, noise_)});
+    contenders.push_back(
+        {model->causes(), model->parameters(), AdequacyOf(model->point, noise_), model->IsFaint()});
   std::map<int, Records> predicted;
   const auto predictions = [&](int i) -> const Records& {
     if (!predicted.count(i)) predicted[i] = LinearisedHeldOut(model(i).point);

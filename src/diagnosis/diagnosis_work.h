@@ -27,6 +27,8 @@ struct FittedTrial {
 
   std::vector<std::string> causes() const;
   int parameters() const;
+  /// Whether one of its causes is far smaller than such a fault can be.
+  bool IsFaint() const;
 };
 
 class DiagnosisWork {
@@ -71,7 +73,12 @@ class DiagnosisWork {
   void Charge(const std::string& stage, const SimulationCount& count = {});
   FitProblemOptions ProblemOptions() const;
   double Aim() const;
-  std::unique_ptr<FittedTrial> FitOne(const std::vector<Trial>& trials, const FittedTrial& from);
+  using Also = std::map<std::string, double>;
+  /// From where a simpler model stands; `also`: unknowns that begin elsewhere.
+  std::unique_ptr<FittedTrial> FitOne(const std::vector<Trial>& trials, const FittedTrial& from,
+                                      const Also& also = {});
+  std::unique_ptr<FittedTrial> FitOneOrFromTheSet(const std::vector<Trial>& trials,
+                                                  const FittedTrial& from);
   void Keep(std::unique_ptr<FittedTrial> model);
   bool IsExplained() const;
   bool IsExplained(const std::string& name, const FittedTrial* beside) const;

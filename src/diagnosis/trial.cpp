@@ -121,6 +121,16 @@ std::map<std::string, double> Trial::Values() const {
   return values;
 }
 
+bool Trial::IsFaint(const std::function<double(const std::string& path)>& value_of) const {
+  const double least = FindCause(cause)->least;
+  for (const TrialComponent& component : components)
+    for (const HypothesisNumber& number : component.numbers)
+      if (number.role != Role::kSize ||
+          std::abs(value_of(number.path) - NeutralOf(number.path)) >= least)
+        return false;
+  return true;
+}
+
 std::vector<Trial> TrialsFromSimpler(const Cause& cause, const MotionScales& scales) {
   std::vector<Trial> trials;
   for (const Hypothesis& hypothesis : cause.from_simpler) {

@@ -1,6 +1,7 @@
 // A hypothesis on a set: its numbers at some size, and the set in which they are free.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 #include <utility>
@@ -33,6 +34,8 @@ struct Trial {
   std::vector<std::string> FreePaths() const;
   /// All values at the sizes of the components.
   std::map<std::string, double> Values() const;
+  /// Whether its numbers at these values are all sizes below the cause's least.
+  bool IsFaint(const std::function<double(const std::string& path)>& value_of) const;
 };
 
 /// The hypotheses of a cause from where a simpler one was found.

@@ -92,7 +92,7 @@ class Court {
     int best = 0;
     double most = 0;
     for (int i = 1; i < Count(); ++i) {
-      if (!Beats(i, 0)) continue;
+      if (Of(i).faint || !Beats(i, 0)) continue;
       const double gained = difference_(0, i).value - kPerParameter * Of(i).parameters;
       if (gained <= most) continue;
       most = gained;
@@ -101,7 +101,9 @@ class Court {
     for (bool simpler = true; simpler;) {
       simpler = false;
       for (int p = 0; p < Count() && !simpler; ++p) {
-        if (p == best || !Contains(Of(best).causes, Of(p).causes) || IsWorthIt(best, p)) continue;
+        if (p == best || Of(p).faint || !Contains(Of(best).causes, Of(p).causes) ||
+            IsWorthIt(best, p))
+          continue;
         best = p;
         simpler = true;
       }
@@ -124,6 +126,10 @@ class Court {
     }
     if (!Beats(r, 0)) {
       reason = "it improves the fit by no more than chance does";
+      return;
+    }
+    if (rival.faint) {
+      reason = "its size is far too small for such a fault: it stands for something else";
       return;
     }
     if (b != 0 && Contains(rival.causes, best.causes)) {

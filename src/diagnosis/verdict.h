@@ -15,6 +15,7 @@ struct Contender {
   std::vector<std::string> causes;
   int parameters = 0;  ///< that it adds to the plain model's
   Adequacy adequacy;
+  bool faint = false;  ///< its sizes are too small to be what its name says
 };
 
 struct Judgement {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cosserat_cable/fit/damage.h"
+#include "cosserat_cable/fit/step_errors.h"
 
 namespace cosserat_cable {
 namespace {
@@ -75,6 +76,11 @@ void FitProblem::Refine(const FitPoint& at) {
     for (Eigen::Index c = 0; c < levels[e].size(); ++c)
       levels[e][c] *= std::max(1.0, RootMeanSquare(at.residuals[e].col(c)));
   model_->Refine(at.values, levels);
+}
+
+bool FitProblem::Sharpen(const FitPoint& at) {
+  return at.cost < kMuchNoise * std::max(1.0, at.samples) &&
+         SharpenWhereItMoves(at.jacobian, noise_, model_.get());
 }
 
 FitPoint FitProblem::PointOf(const FitResult& fit) {
@@ -196,7 +202,11 @@ FitResult FitProblem::WarmFit(const FitPoint& start, const std::map<std::string,
   FitOptions options;
   options.finish = finish;
   options.quick = options_.quick || !finish;
-  options.known = KnownFrom(start);
+  // Derivatives are those of the start.
+  const bool there = std::none_of(also.begin(), also.end(), [&](const auto& one) {
+    return std::isfinite(start.ValueOf(one.first));
+  });
+  if (there) options.known = KnownFrom(start);
   options.aim = 0.5 * options_.aim;
   const double samples = std::max(1.0, start.samples);
   options.to_noise = start.cost < kMuchNoise * samples;

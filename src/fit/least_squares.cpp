@@ -68,6 +68,11 @@ Eigen::VectorXd StepOf(const LeastSquaresProblem::Linearisation& at,
   return all;
 }
 
+struct Place {
+  double cost = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd x;
+};
+
 /// The point that is the best of several, if it gains enough.
 struct Best {
   double cost;  ///< to be undercut
@@ -142,12 +147,18 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
 
     // From less damping than did last time to more.
     double tried = std::max(damping / kRatio, kSmallest);
+    Place nearest;  // where no derivatives are to be had
     for (bool moved = false; !moved;) {
       if (!problem->GoOn(result.iterations, result.cost)) {
         result.end = End::kStopped;
         return result;
       }
       if (tried > kLargest) {
+        if (nearest.cost < result.cost) {
+          result.x = nearest.x;
+          result.cost = nearest.cost;
+          return result;
+        }
         if (completed()) break;
         return result;
       }
@@ -188,10 +199,9 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
       const auto k = static_cast<std::size_t>(best.index);
       if (!there.ok || k > 0) there = problem->Linearise(points[k], {}, next_renew, &costs);
       if (!there.ok) {
-        // It was simulated, its neighbours cannot be: it is as far as one gets.
-        result.x = points[k];
-        result.cost = best.cost;
-        return result;
+        // It was simulated, its neighbours cannot be: nearer they perhaps can.
+        if (best.cost < nearest.cost) nearest = {best.cost, points[k]};
+        continue;
       }
       const double gained = at.cost - there.cost;
       const bool poor = gained < kAsPromised * promised[k];

@@ -1,9 +1,9 @@
 #include "estimation_work.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/fit/step_errors.h"
 #include "cosserat_cable/input/number_text.h"
 
 namespace cosserat_cable {
@@ -15,12 +15,8 @@ constexpr int kMaxRounds = 6;
 // A further round of steps, noise and fit is worth it where values moved by more than this part of
 // their standard deviation, or a noise by this part.
 constexpr double kSettled = 0.1, kNoiseSettled = 0.05;
-// What the simulation's remaining error may move any parameter by, in its standard deviations, and
-// the part of the noise below which a sample has none.
-constexpr double kMostShift = 0.2, kResolved = 0.5;
-// Squared norm of a derivative, by an unknown's scale, that shows nothing of it; and what keeps
-// directions that the records do not show from passing for some that they do.
-constexpr double kUnshown = 1e-3, kRidge = 1e-10;
+// The part of the noise below which the simulation's remaining error in a sample is none.
+constexpr double kResolved = 0.5;
 // Times the noise.
 constexpr double kFarMore = 30;
 // Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
@@ -65,32 +61,6 @@ Eigen::MatrixXd EstimationWork::Counted(std::size_t e) const {
       counted.col(c).array() *= resolved;
   }
   return counted;
-}
-
-/// Finer runs behind the corrections of experiments whose remaining errors move the parameters: by
-/// no more, in standard deviations of any of them, than the part of the error that lies in the
-/// derivatives' space is long.
-bool EstimationWork::Sharpen(const RecordJacobian& jacobian) {
-  // The part of an error e in the derivatives' space: |R^-T J^T e|, with R^T R = J^T J.
-  const Eigen::MatrixXd gram = jacobian.Gram();
-  const Eigen::VectorXd unit =
-      gram.diagonal().unaryExpr([](double x) { return x > kUnshown ? 1 / std::sqrt(x) : 0.0; });
-  Eigen::MatrixXd normal = unit.asDiagonal() * gram * unit.asDiagonal();
-  normal.diagonal().array() += kRidge;
-  const Eigen::LLT<Eigen::MatrixXd> factor(normal);
-  bool sharper = false;
-  for (std::size_t e = 0; e < experiments().size(); ++e) {
-    const Eigen::MatrixXd error = model_.error()[e].cwiseProduct(SampleWeights(model_, e, noise_));
-    const Eigen::Map<const Eigen::VectorXd> column(error.data(), error.size());
-    const RecordJacobian::Record& record = jacobian.records()[e];
-    const Eigen::VectorXd part = record.columns.transpose() * column;
-    Eigen::VectorXd all = Eigen::VectorXd::Zero(gram.rows());
-    for (std::size_t k = 0; k < record.unknowns.size(); ++k)
-      all[record.unknowns[k]] = unit[record.unknowns[k]] * part[static_cast<Eigen::Index>(k)];
-    const double shift = factor.matrixL().solve(all).norm();
-    if (shift > kMostShift) sharper |= model_.Sharpen(static_cast<int>(e));
-  }
-  return sharper;
 }
 
 /// Where the noise is not given, the residuals say what it is. False: it had been right.
@@ -151,7 +121,7 @@ bool EstimationWork::FitInRounds() {
     Eigen::VectorXd moved_by = optimum_.values - before;
     for (int i = 0; i < unknowns_.size(); ++i) moved_by[i] /= unknowns_.all()[i].scale;
     const double moved = std::sqrt(moved_by.dot(fit_.jacobian.Gram() * moved_by));
-    const bool sharper = !misfit_ && Sharpen(fit_.jacobian);
+    const bool sharper = !misfit_ && SharpenWhereItMoves(fit_.jacobian, noise_, &model_);
     // Corrections follow the values, and the values the corrections: by the same part each time.
     const double next = last_move > moved ? moved * moved / last_move : moved;
     last_move = moved;

@@ -56,7 +56,6 @@ class EstimationWork {
   NoiseLevel Level(std::size_t experiment, int column) const;
   bool MovesBeyondNoise(std::size_t experiment) const;
   Eigen::MatrixXd Counted(std::size_t experiment) const;
-  bool Sharpen(const RecordJacobian& jacobian);
   bool ShownByNone(int unknown) const;
   bool UpdateNoise();
   bool FitInRounds();

@@ -56,6 +56,28 @@ TEST(TrialTest, TheExtendedSetSaysWhichChannels) {
   EXPECT_EQ(extended.cable.faults.value->sensor[0].channels, trial->channels);
 }
 
+TEST(TrialTest, OnlySizesBelowTheLeastAreFaint) {
+  for (const Trial& trial : AllTrials(ThreeSensors(), Scales())) {
+    const auto at = [&](double size) {
+      return trial.IsFaint([&](const std::string& path) {
+        const bool factor =
+            path.find("scale") != std::string::npos || path.find("amplitude") != std::string::npos;
+        return (factor ? 1 : 0) + size;
+      });
+    };
+    const std::vector<std::string> paths = trial.FreePaths();
+    const bool low_pass_or_bracket =
+        std::any_of(paths.begin(), paths.end(), [](const std::string& path) {
+          return path.find("low_pass") != std::string::npos ||
+                 path.find("bracket") != std::string::npos;
+        });
+    const bool can_be =
+        (trial.cause == "sensor" || trial.cause == "base_motion") && !low_pass_or_bracket;
+    EXPECT_EQ(at(1e-6), can_be) << trial.cause;
+    EXPECT_FALSE(at(1e-2)) << trial.cause;
+  }
+}
+
 TEST(TrialTest, OnlySensorsAreOfChannels) {
   for (const Trial& trial : AllTrials(ThreeSensors(), Scales()))
     EXPECT_TRUE(trial.channels.empty() || trial.cause == "sensor") << trial.cause;

@@ -48,6 +48,18 @@ TEST(VerdictTest, NamedWhereOneLeavesNoiseAndTheOthersDoNot) {
   EXPECT_NE(found.rejected[2].find("62.5 %"), std::string::npos) << found.rejected[2];
 }
 
+TEST(VerdictTest, AFaintFaultIsNeitherNamedNorARival) {
+  Contender tilt = Leaves({"sensor"}, 1.0);
+  tilt.faint = true;
+  const Judgement alone = JudgeWith({Leaves({}, 5, 0), tilt});
+  EXPECT_EQ(alone.verdict, Verdict::kUnexplained);
+  EXPECT_EQ(alone.best, 0);
+  EXPECT_NE(alone.rejected[1].find("too small"), std::string::npos);
+  const Judgement beside = JudgeWith({Leaves({}, 5, 0), tilt, Leaves({"air_drag"}, 1.01)});
+  EXPECT_EQ(beside.verdict, Verdict::kNamed);
+  EXPECT_EQ(beside.best, 2);
+}
+
 TEST(VerdictTest, AmbiguousWhereTwoLeaveTheSame) {
   const Judgement found = JudgeWith(
       {Leaves({}, 5, 0), Leaves({"air_drag"}, 1.000), Leaves({"external_damping"}, 1.002)});

@@ -18,8 +18,10 @@ class Valley : public LeastSquaresProblem {
   Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
                           Renew renew, std::vector<double>* costs) override {
     ++linearised;
+    *costs = Costs(others);
     Linearisation at;
-    at.ok = true;
+    at.ok = !(x[0] > cliff_[0] && x[0] < cliff_[1]);
+    if (!at.ok) return at;
     at.kept = renew == Renew::kNone && known_;
     at.whole = !at.kept;
     if (at.whole)
@@ -33,7 +35,6 @@ class Valley : public LeastSquaresProblem {
     at.cost = Cost(x);
     at.gram = jacobian.transpose() * jacobian;
     at.gradient = jacobian.transpose() * Residuals(x);
-    *costs = Costs(others);
     return at;
   }
   std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) override {
@@ -46,6 +47,9 @@ class Valley : public LeastSquaresProblem {
   bool GoOn(int, double) override { return true; }
   void Restrain(const Eigen::VectorXd&, Eigen::VectorXd*) const override {}
 
+  /// Between these, on the first axis, there are values but no derivatives.
+  void SetCliff(double from, double to) { cliff_ = {from, to}; }
+
   int linearised = 0;
 
  private:
@@ -55,6 +59,7 @@ class Valley : public LeastSquaresProblem {
   double Cost(const Eigen::VectorXd& x) const { return 0.5 * Residuals(x).squaredNorm(); }
 
   double floor_;
+  Vector2d cliff_ = Vector2d::Zero();
   bool known_ = false;
   double slope_ = 0;
   Eigen::VectorXd last_;
@@ -86,6 +91,26 @@ TEST(LeastSquaresTest, EndsWhereWholeDerivativesSaySo) {
   const LeastSquaresResult found = Minimise(kStart, options, &valley);
   EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
   EXPECT_LT((found.x - Vector2d(1, 1)).norm(), kNear);
+}
+
+TEST(LeastSquaresTest, GoesOnPastAPlaceWithoutDerivatives) {
+  Valley smooth(0), broken(0);
+  const LeastSquaresResult whole = Minimise(kStart, Wide(), &smooth);
+  // What the first step of the whole valley leads to, and what lies about it.
+  broken.SetCliff(-1.19, -0.9);
+  const LeastSquaresResult found = Minimise(kStart, Wide(), &broken);
+  EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
+  EXPECT_LT((found.x - whole.x).norm(), kNear);
+  EXPECT_GT(broken.linearised, smooth.linearised);
+}
+
+TEST(LeastSquaresTest, KeepsTheBestPlaceWhereAllAroundThereAreNoDerivatives) {
+  Valley valley(0);
+  valley.SetCliff(-1.2 + 1e-12, 1e3);
+  const LeastSquaresResult found = Minimise(kStart, Wide(), &valley);
+  EXPECT_EQ(found.end, LeastSquaresResult::End::kStuck);
+  const double at_start = 0.5 * (std::pow(10 * (1 - 1.44), 2) + 2.2 * 2.2);
+  EXPECT_LT(found.cost, at_start);
 }
 
 TEST(LeastSquaresTest, DoesNotFollowTheValleyWhereItsAimLiesBelowTheFloor) {

@@ -83,6 +83,11 @@ class FitProblem {
   /// Found anew at a point: as fine as the larger of the noise and what is left there asks.
   void Refine(const FitPoint& at);
 
+  /// Where what the steps still do moves the unknowns, the next Refine compares with finer ones.
+  /// Not where far more than noise is left: that takes no precision to see.
+  /// @return whether it does anywhere
+  bool Sharpen(const FitPoint& at);
+
   /// Warm fits from now on are thorough, with so many iterations; 0: as many as it takes.
   void SetMaxIterations(int count) {
     options_.max_iterations = count;
