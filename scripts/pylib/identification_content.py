@@ -156,6 +156,33 @@ def noise_table(data):
                   'rms residual', 'residual/noise', 'offset'], rows, '')
 
 
+def references_table(data):
+    """What models without mechanics leave of channels that follow a clamp, by quantity."""
+    kinds = {}
+    for entry in data.get('experiments', []):
+        for channel in entry.get('channels', []):
+            references = channel.get('references') or {}
+            if references.get('filter') is not None:
+                kinds.setdefault((channel['quantity'], channel.get('unit', '')), []).append(
+                    (channel['rms'], references['constant'], references['filter'],
+                     references.get('filter_unseen')))
+
+    def together(values):
+        if None in values:
+            return '-'
+        return number((sum(v * v for v in values) / len(values)) ** 0.5)
+
+    rows = [[f'{quantity} [{unit}]', *(together(column) for column in zip(*rows))]
+            for (quantity, unit), rows in kinds.items()]
+    if not rows:
+        return []
+    return [Heading('What the mechanics explain', 2),
+            Table(['rms left by', 'the model', "each record's mean", "a filter of the clamps' motion",
+                   'that filter, record left out'], rows,
+                  'The filter weighs positions and directions of the clamps over their last 0.6 s: '
+                  'it knows no mechanics, and has been fitted to the same records.')]
+
+
 def direct_items(data, intervals):
     direct = data.get('direct') or {}
     rings = direct.get('bending', []) + direct.get('torsion', [])
@@ -276,6 +303,7 @@ def content(data, records):
                   Text('A channel whose residual is clearly more than its noise is not explained by '
                        'the model. The noise comes from the record itself, not from the fit, where '
                        'there is a way.', ''), noise]
+    items += references_table(data)
     items += direct_items(data, intervals) + plan_items(data)
     if data.get('messages'):
         items += [Heading('Messages', 2), Bullets(data['messages'], '')]

@@ -1,8 +1,10 @@
 #include "answer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <sstream>
 
@@ -59,6 +61,8 @@ double NoiseOf(const ChannelFit& fit) {
   return fit.noise.source == NoiseLevel::Source::kUnknown ? fit.rms : fit.noise.sd;
 }
 
+json Finite(double value) { return std::isfinite(value) ? json(value) : json(); }
+
 /// `interval`: between two samples, on average [s]; 0 of a quasi-static record.
 json ChannelJson(const Channel& channel, const ChannelFit& fit, double interval) {
   return {{"column", channel.column},
@@ -69,10 +73,53 @@ json ChannelJson(const Channel& channel, const ChannelFit& fit, double interval)
           {"noise_from", NoiseFrom(fit.noise.source)},
           {"weighted_by", fit.sigma},
           {"rms", fit.rms},
+          {"references",
+           {{"constant", Finite(fit.reference.constant)},
+            {"filter", Finite(fit.reference.filter)},
+            {"filter_unseen", Finite(fit.reference.filter_unseen)}}},
           {"correlation_samples", fit.correlation_samples},
           {"correlation_time", interval > 0 ? json(interval * fit.correlation_samples) : json()},
           {"misfit", fit.times_noise > 0 ? json(fit.times_noise) : json()},
           {"explained", fit.times_noise > 0 ? json(!fit.misfit) : json()}};
+}
+
+/// Root mean square over all channels of a quantity; NaN where one of them has none.
+struct Together {
+  double squares = 0;
+  int count = 0;
+
+  void Add(double rms) {
+    squares += rms * rms;
+    ++count;
+  }
+  double rms() const { return std::sqrt(squares / std::max(count, 1)); }
+};
+
+/// The model beside models without mechanics, a line per quantity whose channels follow a clamp.
+std::string AgainstReferences(const MeasurementSet& set, const Estimation& estimation) {
+  std::map<Quantity, std::array<Together, 4>> by_quantity;
+  for (std::size_t e = 0; e < set.experiments.size(); ++e)
+    for (std::size_t c = 0; c < set.experiments[e].channels.size(); ++c) {
+      const ChannelFit& fit = estimation.experiments[e].channels[c];
+      if (!std::isfinite(fit.reference.filter)) continue;
+      auto& of = by_quantity[set.experiments[e].channels[c].quantity];
+      of[0].Add(fit.rms);
+      of[1].Add(fit.reference.constant);
+      of[2].Add(fit.reference.filter);
+      of[3].Add(fit.reference.filter_unseen);
+    }
+  std::ostringstream out;
+  for (const auto& [quantity, of] : by_quantity) {
+    const auto text = [&, unit = ChannelUnit(quantity)](const Together& one) {
+      return FormatRounded(one.rms(), 3) + " " + unit;
+    };
+    out << ToString(quantity) << ": the model leaves " << text(of[0])
+        << " (root mean square), the mean of each record " << text(of[1])
+        << ", a linear filter of the clamps' motion " << text(of[2]);
+    if (std::isfinite(of[3].rms())) out << ", and " << text(of[3]) << " of a record left out";
+    out << ".\n";
+  }
+  return out.str();
 }
 
 json SlipJson(const ChannelSlip& slip) {
@@ -195,7 +242,7 @@ std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit) {
   return RecordCsv(experiment.record, columns, values);
 }
 
-std::string AnswerTable(const Estimation& estimation) {
+std::string AnswerTable(const MeasurementSet& set, const Estimation& estimation) {
   std::ostringstream out;
   char line[320];
   std::size_t longest = 22;
@@ -218,6 +265,7 @@ std::string AnswerTable(const Estimation& estimation) {
                     "undetermined", one.reason.substr(0, 200).c_str());
     out << line;
   }
+  out << AgainstReferences(set, estimation);
   for (const ChannelSlip& slip : estimation.slips)
     out << slip.experiment << ": " << slip.text << (slip.text.back() == '?' ? "" : ".")
         << " It would leave " << FormatRounded(slip.after, 2) << " times the noise instead of "

@@ -15,6 +15,6 @@ nlohmann::json AnswerJson(const MeasurementSet& set, const Estimation& estimatio
 std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit);
 
 /// A table for the terminal.
-std::string AnswerTable(const Estimation& estimation);
+std::string AnswerTable(const MeasurementSet& set, const Estimation& estimation);
 
 }  // namespace cosserat_cable

@@ -64,6 +64,8 @@ double EstimationWork::QuantileOf(int unknown, const Determination& determinatio
 }
 
 void EstimationWork::ReportChannels() {
+  const std::vector<std::vector<ReferenceResiduals>> references =
+      FindReferenceResiduals(unknowns_.set(), model_.usable());
   for (std::size_t e = 0; e < experiments().size(); ++e) {
     const Experiment& experiment = experiments()[e];
     ExperimentFit fit;
@@ -76,6 +78,7 @@ void EstimationWork::ReportChannels() {
       channel.sigma = noise_[e][column];
       channel.sigma_given = experiment.channels[c].sigma.has_value();
       channel.rms = RootMeanSquare(CountedResiduals(experiment, simulated_[e], Counted(e), column));
+      channel.reference = references[e][c];
       channel.correlation_samples = colours_[e][c].correlation_samples;
       channel.noise = Level(e, column);
       if (!model_.IsLeftOut(static_cast<int>(e)))

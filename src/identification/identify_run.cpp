@@ -88,7 +88,7 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
     std::cerr << error.what() << "\n";
     return kExitFileTrouble;
   }
-  std::cout << AnswerTable(estimation);
+  std::cout << AnswerTable(set, estimation);
   if (options.plan) std::cout << PlanTable(plan);
   for (const std::string& warning : estimation.warnings)
     std::cerr << "warning: " << warning << "\n";

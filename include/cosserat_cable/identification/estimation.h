@@ -11,6 +11,7 @@
 #include "cosserat_cable/fit/noise_level.h"
 #include "cosserat_cable/fit/record_model.h"
 #include "cosserat_cable/fit/unknowns.h"
+#include "cosserat_cable/identification/reference_models.h"
 #include "cosserat_cable/input/problems.h"
 
 namespace cosserat_cable {
@@ -62,6 +63,7 @@ struct ChannelFit {
   double rms = 0;                  ///< of the residual
   double times_noise = 0;          ///< how many times the noise that is; 0: unknown
   bool misfit = false;             ///< clearly more than noise
+  ReferenceResiduals reference;    ///< what models without mechanics leave
   double correlation_samples = 1;  ///< how many residuals in a row are worth one
 };
 
