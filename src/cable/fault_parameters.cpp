@@ -32,7 +32,7 @@ const std::vector<Field<SensorFault>>& SensorFields() {
       {"tilt[0]", TiltSpec(), 0, [](F& f) -> double& { return f.tilt[0]; }},
       {"tilt[1]", TiltSpec(), 0, [](F& f) -> double& { return f.tilt[1]; }},
       {"tilt[2]", TiltSpec(), 0, [](F& f) -> double& { return f.tilt[2]; }},
-      {"low_pass", FrequencySpec(), kInfinity, [](F& f) -> double& { return f.low_pass; }}};
+      {"low_pass", TimeConstantSpec(), 0, [](F& f) -> double& { return f.low_pass; }}};
   return fields;
 }
 

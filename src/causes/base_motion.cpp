@@ -6,7 +6,6 @@ namespace cosserat_cable {
 
 Cause BaseMotionCause() {
   using Role = HypothesisNumber::Role;
-  // Of factors and angles.
   constexpr double kLeast = 1e-4;
   Cause cause;
   cause.least = kLeast;

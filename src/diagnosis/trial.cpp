@@ -38,6 +38,12 @@ double NeutralOf(const std::string& path) {
   return std::isfinite(neutral) ? neutral : 0;
 }
 
+/// Whether it is neither a factor nor an angle.
+bool HasDimension(const std::string& path) {
+  const std::optional<Parameter> parameter = FindParameter(path);
+  return parameter && !parameter->unit.empty() && parameter->unit != "rad";
+}
+
 bool CanBeNegative(const std::string& path) {
   const std::optional<Parameter> parameter = FindParameter(path);
   if (!parameter) return false;
@@ -125,7 +131,7 @@ bool Trial::IsFaint(const std::function<double(const std::string& path)>& value_
   const double least = FindCause(cause)->least;
   for (const TrialComponent& component : components)
     for (const HypothesisNumber& number : component.numbers)
-      if (number.role != Role::kSize ||
+      if (number.role != Role::kSize || HasDimension(number.path) ||
           std::abs(value_of(number.path) - NeutralOf(number.path)) >= least)
         return false;
   return true;

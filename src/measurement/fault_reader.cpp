@@ -74,7 +74,7 @@ SensorFault ReadSensor(const YamlValue& value) {
   if (channels.IsList() && items.empty()) channels.ReportUnexpected(expected);
   entry.Number("scale", SensorScaleSpec(), &sensor.scale);
   entry.Tilt(&sensor.tilt);
-  entry.Number("low_pass", FrequencySpec(), &sensor.low_pass);
+  entry.Number("low_pass", TimeConstantSpec(), &sensor.low_pass);
   sensor.marks = entry.Finish("at least one of scale, tilt, low_pass");
   return sensor;
 }

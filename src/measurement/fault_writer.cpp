@@ -44,7 +44,7 @@ std::string Text(const SensorFault& sensor) {
   }
   flow.Add("scale", sensor.scale);
   if (!sensor.tilt.isZero(0)) flow.Add("tilt", sensor.tilt);
-  if (std::isfinite(sensor.low_pass)) flow.Add("low_pass", sensor.low_pass);
+  if (sensor.low_pass > 0) flow.Add("low_pass", sensor.low_pass);
   return flow.text();
 }
 

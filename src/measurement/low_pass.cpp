@@ -6,7 +6,6 @@
 namespace cosserat_cable {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr int kMostCoefficients = 6;
 
 /// The response at the step's end to u^n, n = 0, 1, ..., over a step of `a` time constants:
@@ -30,8 +29,8 @@ std::array<double, kMostCoefficients> Responses(double a) {
 
 }  // namespace
 
-LowPass::LowPass(const Trace& trace, int quantity, double frequency, Before before)
-    : trace_(trace), quantity_(quantity), w_(2 * kPi * frequency) {
+LowPass::LowPass(const Trace& trace, int quantity, double time_constant, Before before)
+    : trace_(trace), quantity_(quantity), w_(1 / time_constant) {
   y_.reserve(static_cast<std::size_t>(trace.steps()));
   y_.push_back(Start(before));
   const double a = w_ * trace.dt(), decay = std::exp(-a);

@@ -9,8 +9,8 @@
 
 namespace cosserat_cable {
 
-/// y' = w (x - y), w = 2 pi frequency, solved exactly for the polynomials that the trace is between
-/// its steps. The sensor behind it has seen the quantity stand, or go on as it begins.
+/// y' = w (x - y), w = 1/time constant, solved exactly for the polynomials that the trace is
+/// between its steps. The sensor behind it has seen the quantity stand, or go on as it begins.
 class LowPass {
  public:
   enum class Before {
@@ -19,7 +19,7 @@ class LowPass {
     kSwings       ///< as a sine of the trace's mean and root-mean-square frequency
   };
   /// The trace outlives this.
-  LowPass(const Trace& trace, int quantity, double frequency, Before before);
+  LowPass(const Trace& trace, int quantity, double time_constant, Before before);
 
   /// The derivative of order 0, 1 or 2 at time `t` >= the trace's start [s]: y, w (x - y), w (x' -
   /// y').

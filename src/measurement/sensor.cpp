@@ -1,7 +1,6 @@
 #include "sensor.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "cosserat_cable/math/rotation.h"
 
@@ -18,7 +17,7 @@ std::vector<ChannelSensor> SensorsOf(const std::vector<Channel>& channels, const
           std::count(fault.channels.begin(), fault.channels.end(), channel.column) > 0;
       if (!in_group) continue;
       sensor.scale *= fault.scale;
-      if (std::isfinite(fault.low_pass)) sensor.low_passes.push_back(fault.low_pass);
+      if (fault.low_pass > 0) sensor.low_passes.push_back(fault.low_pass);
       if (fault.tilt.isZero(0)) continue;
       turn = RotationExp(fault.tilt) * turn;
       sensor.direction = turn.conjugate() * Eigen::Vector3d::Unit(channel.axis);

@@ -16,7 +16,7 @@ struct ChannelSensor {
   /// components count, whether or not the record has them.
   std::optional<Eigen::Vector3d> direction;
   double scale = 1;
-  std::vector<double> low_passes;  ///< [Hz]
+  std::vector<double> low_passes;  ///< time constants [s]
 };
 
 /// By channel.

@@ -45,7 +45,7 @@ TEST(Parameters, HaveUnitSignAndRange) {
       {"faults.clock.scale", "", ParameterSign::kSigned, -0.5, 1, false},
       {"faults.clock.delay", "s", ParameterSign::kSigned, -1e3, 1e3, false},
       {"faults.sensor[3].tilt[2]", "rad", ParameterSign::kSigned, -3.2, 3.2, false},
-      {"faults.sensor[0].low_pass", "Hz", ParameterSign::kPositive, 0, 1e6, false},
+      {"faults.sensor[0].low_pass", "s", ParameterSign::kNonNegative, 0, 10, false},
       {"faults.base_motion.b.bracket.damping", "", ParameterSign::kNonNegative, 0, 10, false},
   };
   for (const auto& row : kRows) {
@@ -133,7 +133,8 @@ TEST(Parameters, HaveANeutralValueWhereTheyDoNothing) {
   const auto neutral = [](const char* path) { return FindParameter(path)->neutral; };
   EXPECT_EQ(neutral("faults.clock.scale"), 0);
   EXPECT_EQ(neutral("faults.sensor[0].scale"), 1);
-  EXPECT_EQ(neutral("faults.sensor[0].low_pass"), kInfinity);
+  EXPECT_EQ(neutral("faults.sensor[0].low_pass"), 0);
+  EXPECT_EQ(neutral("faults.base_motion.a.bracket.frequency"), kInfinity);
   EXPECT_EQ(neutral("faults.base_motion.a.amplitude"), 1);
   EXPECT_FALSE(neutral("faults.base_motion.a.bracket.damping"));
   EXPECT_EQ(neutral("extensions.maxwell[0].EI"), 0);

@@ -78,7 +78,7 @@ TEST(Clock, ShowsTheMotionAtItsOwnTime) {
 
 TEST(Sensor, FirstOrderLowPass) {
   const double corner = 8.0, hertz = 5.0, dt = 2e-4, turn = 2.0 * std::acos(-1.0);
-  const auto sensor = effectOf(kSensor, {{"scale", 1.5}, {"low_pass", corner}});
+  const auto sensor = effectOf(kSensor, {{"scale", 1.5}, {"low_pass", 1.0 / (turn * corner)}});
   const int n = 10000;
   Eigen::MatrixXd samples(n, 1);
   for (int i = 0; i < n; ++i) samples(i, 0) = std::sin(turn * hertz * i * dt);

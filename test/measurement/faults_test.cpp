@@ -35,7 +35,7 @@ const char* const kAllFaults =
     "faults:\n"
     "  clock: {scale: 1.0e-3, delay: -0.002}\n"
     "  sensor:\n"
-    "    - {channels: [tip_x, apex], scale: 1.02, tilt: [0.01, 0, -0.02], low_pass: 30}\n"
+    "    - {channels: [tip_x, apex], scale: 1.02, tilt: [0.01, 0, -0.02], low_pass: 0.005}\n"
     "    - {scale: 0.99}\n"
     "  base_motion:\n"
     "    a: {amplitude: 1.1, phase: 0.2, bracket: {frequency: 25, damping: 0.03}, tilt: [0, 0.1, "
@@ -50,10 +50,10 @@ TEST(Faults, AreReadWithTheirDefaults) {
   ASSERT_EQ(faults.sensor.size(), 2u);
   EXPECT_EQ(faults.sensor[0].channels, (std::vector<std::string>{"tip_x", "apex"}));
   EXPECT_EQ(faults.sensor[0].tilt, Eigen::Vector3d(0.01, 0, -0.02));
-  EXPECT_EQ(faults.sensor[0].low_pass, 30);
+  EXPECT_EQ(faults.sensor[0].low_pass, 0.005);
   EXPECT_TRUE(faults.sensor[1].channels.empty());
   EXPECT_EQ(faults.sensor[1].scale, 0.99);
-  EXPECT_FALSE(std::isfinite(faults.sensor[1].low_pass));
+  EXPECT_EQ(faults.sensor[1].low_pass, 0);
   EXPECT_EQ(faults.a->amplitude, 1.1);
   EXPECT_EQ(faults.a->phase, 0.2);
   EXPECT_EQ(faults.a->bracket_frequency, 25);
@@ -85,7 +85,7 @@ TEST(Faults, ReadBackAsTheyAreWritten) {
   const std::string text =
       Replaced(WithSetFaults(kAllFaults), "  - name: pendulum\n",
                "  - name: pendulum\n    faults: {sensor: [{channels: [phi_dot], scale: "
-               "1.2345678901234567, low_pass: 12}]}\n");
+               "1.2345678901234567, low_pass: 0.0123456789012345678}]}\n");
   const MeasurementSet set =
       Loaded(Replaced(text, "  - name: swinging\n", "  - name: swinging\n    faults: {}\n"));
   SetFolder copy;
@@ -159,7 +159,7 @@ TEST(FaultMistakes, WhatTheExperimentCannotHave) {
   const std::string no_time =
       "got this of a quasi-static record (its first column is `step`), which has no time\n";
   EXPECT_EQ(Said(WithFaultsOf("steps",
-                              "{clock: {scale: 0.1}, sensor: [{low_pass: 3}], "
+                              "{clock: {scale: 0.1}, sensor: [{low_pass: 0.3}], "
                               "base_motion: {b: {phase: 1, amplitude: 2}}}")),
             kYaml + "40: experiments[3].faults.clock: " + no_time + kYaml +
                 "40: experiments[3].faults.sensor[0].low_pass: " + no_time + kYaml +

@@ -131,7 +131,7 @@ TEST(Sensor, LowPassesASineAsAFirstOrderFilterDoes) {
   for (const double cutoff : {2.0, 8.0, 150.0}) {
     Faults faults;
     SensorFault sensor;
-    sensor.low_pass = cutoff;
+    sensor.low_pass = 1 / (2 * kPi * cutoff);
     faults.sensor = {sensor};
     const Eigen::MatrixXd seen = Simulated(experiment, faults);
     const double w = kShaker, wc = 2 * kPi * cutoff;
@@ -159,7 +159,7 @@ TEST(Sensor, OfASwingThatWasThereBeforeHasNoTransient) {
   constexpr int kSteps = 2001;
   Trace trace(0, kStep, kSteps, 1);
   for (int k = 0; k < kSteps; ++k) trace.at(k)[0] = std::sin(w * k * kStep + 1);
-  const LowPass filtered(trace, 0, 3.0, LowPass::Before::kSwings);
+  const LowPass filtered(trace, 0, 1 / (2 * kPi * 3.0), LowPass::Before::kSwings);
   const double ratio = w / (2 * kPi * 3), gain = 1 / std::hypot(1, ratio), lag = std::atan(ratio);
   constexpr double kMean = 1e-3;  // the last sample is one more than whole periods
   for (int k = 0; k < kSteps; ++k)
@@ -374,7 +374,7 @@ TEST(Pipeline, SpecimensSideBySideHaveFaultsOfTheirOwn) {
   specimens[1].faults.clock = ClockFault{0.2, -0.001, {}};
   specimens[2].faults.clock = ClockFault{-0.2, 0.001, {}};
   specimens[2].faults.sensor = {SensorFault()};
-  specimens[2].faults.sensor[0].low_pass = 20;
+  specimens[2].faults.sensor[0].low_pass = 0.008;
   specimens[3].faults.a = ClampMotionFault();
   specimens[3].faults.a->bracket_frequency = 12;
   const auto all = SimulateExperiment(experiment, specimens, Fine());

@@ -14,6 +14,10 @@ inline NumberSpec SensorScaleSpec() { return NumberSpec::Above(0, "").AtMost(1e4
 inline NumberSpec TiltSpec() {
   return NumberSpec::AtLeast(-3.2, "rad").AtMost(3.2).Hint("is it in degrees?");
 }
+inline NumberSpec TimeConstantSpec() {
+  return NumberSpec::AtLeast(0, "s").AtMost(10).Hint(
+      "is it a frequency? The time constant is 1/(2 pi frequency)");
+}
 inline NumberSpec FrequencySpec() { return NumberSpec::Above(0, "Hz").AtMost(1e6); }
 inline NumberSpec AmplitudeSpec() { return NumberSpec::AtLeast(-100, "").AtMost(100); }
 /// A phase is a shift in time, of less than a period.

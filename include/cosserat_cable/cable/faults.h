@@ -27,8 +27,8 @@ struct ClockFault {
 struct SensorFault {
   std::vector<std::string> channels;  ///< columns; none: all channels
   double scale = 1;
-  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();             ///< rotation vector [rad]
-  double low_pass = std::numeric_limits<double>::infinity();  ///< -3 dB, first order [Hz]
+  Eigen::Vector3d tilt = Eigen::Vector3d::Zero();  ///< rotation vector [rad]
+  double low_pass = 0;                             ///< time constant of the first order [s]
   SourceMark mark;
   std::map<std::string, SourceMark> marks;  ///< of the keys that a file gives
   std::vector<SourceMark> channel_marks;    ///< as many as channels, where a file gives them
