@@ -94,6 +94,7 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
     const Adequacy adequacy = AdequacyOf(of.point, noise_);
     candidate.chi2 = adequacy.chi2;
     candidate.samples = of.point.samples;
+    candidate.log_likelihood = LikelihoodOf(of.point).log_likelihood;
     candidate.parameters = of.parameters();
     candidate.adequate = adequacy.adequate;
     if (plain.excess() > 0)
@@ -242,6 +243,9 @@ Diagnosis DiagnosisWork::Report() {
     return std::sqrt(of.point.cost / std::max(1.0, of.point.samples));
   };
   diagnosis_.baseline_times_noise = times(baseline());
+  const Likelihood likelihood = LikelihoodOf(baseline().point);
+  diagnosis_.baseline_log_likelihood = likelihood.log_likelihood;
+  diagnosis_.baseline_freedom = likelihood.freedom;
   diagnosis_.extended_times_noise = times(best);
   diagnosis_.baseline = FoundIn(baseline());
   if (judgement.verdict == Verdict::kNamed || judgement.verdict == Verdict::kAmbiguous)

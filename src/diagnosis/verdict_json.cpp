@@ -60,6 +60,7 @@ json CandidateJson(const Candidate& candidate) {
   entry["heldout"] =
       candidate.fitted ? json::array({candidate.heldout, candidate.heldout_se}) : json();
   if (candidate.fitted) {
+    entry["log_likelihood"] = candidate.log_likelihood;
     entry["adequate"] = candidate.adequate;
     entry["parameters"] = ParametersJson(candidate.found);
     entry["undetermined"] = ReasonsJson(candidate.found);
@@ -87,6 +88,8 @@ json VerdictJson(const MeasurementSet& set, const Diagnosis& diagnosis) {
   verdict["baseline"] = {{"parameters", ParametersJson(diagnosis.baseline)},
                          {"undetermined", ReasonsJson(diagnosis.baseline)},
                          {"times_noise", diagnosis.baseline_times_noise},
+                         {"log_likelihood", diagnosis.baseline_log_likelihood},
+                         {"freedom", diagnosis.baseline_freedom},
                          {"rms_test", diagnosis.rms_baseline}};
   verdict["extended"] = json();
   if (diagnosis.verdict == Verdict::kNamed) {

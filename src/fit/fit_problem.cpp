@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "cosserat_cable/fit/damage.h"
+#include "cosserat_cable/fit/noise.h"
 #include "cosserat_cable/fit/step_errors.h"
 
 namespace cosserat_cable {
@@ -14,6 +15,8 @@ namespace {
 constexpr double kMuchNoise = 4;
 // Of a record whose start is unknown: what its prediction is begun with, in periods and as a part.
 constexpr double kBeginningPeriods = 2;
+// Squared norm of a derivative, over the unknown's scale, that shows something of it.
+constexpr double kShown = 1e-3;
 // Runs with finer steps, each followed by a fit.
 constexpr int kRounds = 2;
 
@@ -52,6 +55,34 @@ double FitPoint::ValueOf(const std::string& name) const {
   for (std::size_t i = 0; i < unknowns.size(); ++i)
     if (unknowns[i].name == name) return values[static_cast<Eigen::Index>(i)];
   return std::numeric_limits<double>::quiet_NaN();
+}
+
+Likelihood LikelihoodOf(const FitPoint& point) {
+  Likelihood all;
+  for (std::size_t e = 0; e < point.residuals.size(); ++e) {
+    const Eigen::MatrixXd& residuals = point.residuals[e];
+    all.whitened.push_back(Eigen::MatrixXd::Zero(residuals.rows(), residuals.cols()));
+    for (Eigen::Index c = 0; c < residuals.cols(); ++c) {
+      // Exactly zero is what no sensor measured.
+      std::vector<Eigen::Index> counted;
+      for (Eigen::Index i = 0; i < residuals.rows(); ++i)
+        if (residuals(i, c) != 0) counted.push_back(i);
+      if (counted.empty()) continue;
+      Eigen::VectorXd column(static_cast<Eigen::Index>(counted.size()));
+      for (std::size_t k = 0; k < counted.size(); ++k)
+        column[static_cast<Eigen::Index>(k)] = residuals(counted[k], c);
+      const NoiseColour colour = ColourOf(column);
+      const Whitened white = Whiten(column, colour, 1.0);
+      const double count = static_cast<double>(counted.size());
+      all.log_likelihood += white.log_likelihood - count * std::log(point.noise[e][c]);
+      all.samples += count / std::max(1.0, colour.correlation_samples);
+      for (std::size_t k = 0; k < counted.size(); ++k)
+        all.whitened[e](counted[k], c) = white.residuals[static_cast<Eigen::Index>(k)];
+    }
+  }
+  const Eigen::VectorXd shown = point.jacobian.SquaredNorms();
+  all.freedom = all.samples - static_cast<double>((shown.array() > kShown).count());
+  return all;
 }
 
 FitProblem::FitProblem(const MeasurementSet& set, const FitProblemOptions& options,

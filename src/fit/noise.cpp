@@ -11,6 +11,29 @@ constexpr int kSamplesPerOrder = 20;
 constexpr double kDied = 1e-3;  // autocorrelation that counts as none
 constexpr int kDifference = 6;
 
+/// The best linear prediction of a sample from those before it, the last one first, by a sequence's
+/// autocorrelation (Levinson and Durbin).
+struct Predictor {
+  std::vector<double> weights;
+  double error = 1;  ///< variance that it leaves, of one
+
+  /// One sample farther back. False: nothing is left to be predicted.
+  bool Grow(const std::vector<double>& autocorrelation) {
+    const std::size_t order = weights.size() + 1;
+    double reflection = autocorrelation[order];
+    for (std::size_t k = 1; k < order; ++k)
+      reflection -= weights[k - 1] * autocorrelation[order - k];
+    reflection /= error;
+    std::vector<double> next = weights;
+    next.push_back(reflection);
+    for (std::size_t k = 1; k < order; ++k)
+      next[k - 1] = weights[k - 1] - reflection * weights[order - k - 1];
+    weights = next;
+    error *= 1 - reflection * reflection;
+    return error > 0;
+  }
+};
+
 }  // namespace
 
 double NoiseOfSmooth(const Eigen::VectorXd& samples, const Eigen::VectorXd& usable) {
@@ -46,29 +69,22 @@ NoiseColour ColourOf(const Eigen::VectorXd& residuals) {
   for (int k = 0; k <= most; ++k)
     r[k] = residuals.head(n - k).dot(residuals.tail(n - k)) / n / variance;
 
-  // Levinson and Durbin's recursion; the order with the least n log(error) + log(n) order
-  // (Schwarz). Akaike's 2 order finds a colour in every fourth white record, and a wrong interval.
-  std::vector<double> a, best;
-  double error = 1, least = 0;
-  for (int order = 1; order <= most; ++order) {
-    double reflection = r[order];
-    for (int k = 1; k < order; ++k) reflection -= a[k - 1] * r[order - k];
-    reflection /= error;
-    std::vector<double> next = a;
-    next.push_back(reflection);
-    for (int k = 1; k < order; ++k) next[k - 1] = a[k - 1] - reflection * a[order - k - 1];
-    a = next;
-    error *= 1 - reflection * reflection;
-    if (!(error > 0)) break;
-    const double criterion = n * std::log(error) + std::log(n) * order;
+  // The order with the least n log(error) + log(n) order (Schwarz). Akaike's 2 order finds a colour
+  // in every fourth white record, and a wrong interval.
+  Predictor predictor;
+  std::vector<double> best;
+  double least = 0;
+  for (int order = 1; order <= most && predictor.Grow(r); ++order) {
+    const double criterion = n * std::log(predictor.error) + std::log(n) * order;
     if (criterion < least) {
       least = criterion;
-      best = a;
+      best = predictor.weights;
     }
   }
   if (best.empty()) return colour;
   // The model's own autocorrelation.
   const auto order = static_cast<int>(best.size());
+  colour.order = order;
   colour.autocorrelation.assign(r.begin(), r.begin() + order + 1);
   std::vector<double>& rho = colour.autocorrelation;
   while (static_cast<int>(rho.size()) < n / 4) {
@@ -82,6 +98,25 @@ NoiseColour ColourOf(const Eigen::VectorXd& residuals) {
   for (std::size_t k = 1; k < rho.size(); ++k) colour.correlation_samples += 2 * rho[k];
   colour.correlation_samples = std::max(colour.correlation_samples, 1.0 / n);
   return colour;
+}
+
+Whitened Whiten(const Eigen::VectorXd& residuals, const NoiseColour& colour, double sd) {
+  constexpr double kLogTurn = 1.8378770664093453;  // log(2 pi)
+  Whitened white;
+  white.residuals.resize(residuals.size());
+  Predictor predictor;
+  for (Eigen::Index i = 0; i < residuals.size(); ++i) {
+    const auto known = static_cast<Eigen::Index>(predictor.weights.size());
+    double foretold = 0;
+    for (Eigen::Index k = 0; k < known; ++k)
+      foretold += predictor.weights[static_cast<std::size_t>(k)] * residuals[i - 1 - k];
+    const double own_sd = sd * std::sqrt(predictor.error);
+    white.residuals[i] = (residuals[i] - foretold) / own_sd;
+    white.log_likelihood -=
+        0.5 * (kLogTurn + 2 * std::log(own_sd) + white.residuals[i] * white.residuals[i]);
+    if (known < colour.order) predictor.Grow(colour.autocorrelation);
+  }
+  return white;
 }
 
 }  // namespace cosserat_cable

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <random>
 
@@ -48,6 +49,32 @@ TEST(NoiseTest, TheColourOfNoiseIsFound) {
     EXPECT_NEAR(colour.correlation_samples, 1.7 / 0.3, kTolerance * 1.7 / 0.3) << seed;
     EXPECT_NEAR(colour.autocorrelation[1], 0.7, 0.05);
   }
+}
+
+TEST(NoiseTest, WhitenedResidualsAreWhite) {
+  const Eigen::VectorXd noise = 3.0 * Correlated(0.7, 5);
+  const NoiseColour colour = ColourOf(noise);
+  const Whitened white = Whiten(noise, colour, colour.sd);
+  // Of 4000: a standard deviation of 0.011 of the variance's root, 0.016 of a correlation.
+  EXPECT_NEAR(white.residuals.norm() / std::sqrt(kSamples), 1.0, 0.04);
+  const double next = white.residuals.head(kSamples - 1).dot(white.residuals.tail(kSamples - 1));
+  EXPECT_NEAR(next / kSamples, 0.0, 0.05);
+}
+
+TEST(NoiseTest, TheLikelihoodIsThatOfAllSamplesTogether) {
+  // By the covariance matrix of the whole: -(r' C^-1 r + log det C + n log 2 pi)/2.
+  NoiseColour colour;
+  colour.order = 1;
+  constexpr double kRho = 0.6, kSd = 0.2;
+  constexpr int kFew = 12;
+  for (int k = 0; k <= kFew; ++k) colour.autocorrelation.push_back(std::pow(kRho, k));
+  const Eigen::VectorXd r = 0.2 * Correlated(0.3, 2).head(kFew);
+  Eigen::MatrixXd C(kFew, kFew);
+  for (int i = 0; i < kFew; ++i)
+    for (int k = 0; k < kFew; ++k) C(i, k) = kSd * kSd * std::pow(kRho, std::abs(i - k));
+  const double expected =
+      -0.5 * (r.dot(C.inverse() * r) + std::log(C.determinant()) + kFew * std::log(2 * M_PI));
+  EXPECT_NEAR(Whiten(r, colour, kSd).log_likelihood, expected, 1e-9 * std::abs(expected));
 }
 
 }  // namespace

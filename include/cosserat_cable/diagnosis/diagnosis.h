@@ -46,6 +46,7 @@ struct Candidate {
   double promise = 0;   ///< part of the misfit that it explains to first order
   double share = 0;     ///< part of the misfit that it explains, fitted
   double chi2 = 0, samples = 0;
+  double log_likelihood = 0;           ///< the noise's colour counted
   int parameters = 0;                  ///< that it adds
   bool adequate = false;               ///< it leaves nothing but noise
   double worse = 0, worse_se = 0;      ///< than the best, in noise variances; by paired blocks
@@ -83,6 +84,7 @@ struct Diagnosis {
   std::vector<std::string> causes;
   std::string sentence;  ///< the verdict in words
   std::map<std::string, FoundParameter> baseline, extended;
+  double baseline_log_likelihood = 0, baseline_freedom = 0;  ///< the noise's colour counted
   double baseline_times_noise = 0;  ///< rms of what the plain fit leaves, by the noise
   double extended_times_noise = 0;
   bool noise_known = true;

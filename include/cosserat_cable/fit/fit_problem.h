@@ -63,6 +63,15 @@ struct FitPoint {
   double ValueOf(const std::string& name) const;
 };
 
+/// What a point says of itself, its noise taken to be coloured as its residuals are.
+struct Likelihood {
+  double log_likelihood = 0;
+  double samples = 0;  ///< independent ones: those that count, by how many in a row are worth one
+  double freedom = 0;  ///< of them, less the unknowns that the records show
+  Records whitened;    ///< residuals; zero where a sample does not count
+};
+Likelihood LikelihoodOf(const FitPoint& point);
+
 class FitProblem {
  public:
   /// Mistakes of the set go to `problems`; then the problem is not to be used.

@@ -18,7 +18,17 @@ struct NoiseColour {
   std::vector<double> autocorrelation;  ///< at lags 0, 1, ...: until it has died away
   /// Sum over all lags: how many samples count as one, for a signal that varies slowly.
   double correlation_samples = 1;
+  int order = 0;  ///< of the model: so many samples foretell the next
 };
 NoiseColour ColourOf(const Eigen::VectorXd& residuals);
+
+/// Residuals of coloured noise, made white: of each, what the ones before it do not foretell.
+struct Whitened {
+  Eigen::VectorXd residuals;  ///< over their own standard deviations
+  double log_likelihood = 0;  ///< of the residuals as they were, normally distributed
+};
+/// Of residuals with this colour and this standard deviation, by Levinson and Durbin's recursion
+/// over the colour's autocorrelation: the likelihood is that of all samples together.
+Whitened Whiten(const Eigen::VectorXd& residuals, const NoiseColour& colour, double sd);
 
 }  // namespace cosserat_cable
