@@ -8,6 +8,9 @@ int main(int argc, char** argv) {
       "Finds the natural modes of a vehicle's cables at rest, where its joints stand or where a "
       "recording has it; or of a specimen between two clamps.");
   app.add_option("cables", options.cables, "YAML file of the cables")->required();
+  app.add_option("--section", options.sections,
+                 "[NAME=]FILE, may be repeated: a vehicle's cables have the section of a specimen")
+      ->allow_extra_args(false);
   app.add_option("--vehicle", options.vehicle, "URDF file of the vehicle; not for a specimen");
   app.add_option("--a", options.a, "pose of a specimen's clamp a: \"x,y,z,qx,qy,qz,qw\"");
   app.add_option("--b", options.b, "of clamp b");

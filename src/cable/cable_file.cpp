@@ -4,6 +4,7 @@
 #include "cosserat_cable/cable/cable_keys.h"
 #include "cosserat_cable/cable/cable_model.h"
 #include "cosserat_cable/cable/contact_stiffness.h"
+#include "cosserat_cable/cable/section_file.h"
 #include "cosserat_cable/input/map_reader.h"
 #include "extensions.h"
 #include "parameter_spec.h"
@@ -55,8 +56,8 @@ ClampModel ReadClamp(const YamlValue& value, SourceMark* link_mark) {
 // Reads one cable and appends it, with its marks, to the file.
 class CableReader {
  public:
-  CableReader(const Types& types, CableFile* file, Problems* problems)
-      : types_(types), file_(file), problems_(problems) {}
+  CableReader(const Types& types, SectionFiles* sections, CableFile* file, Problems* problems)
+      : types_(types), sections_(*sections), file_(file), problems_(problems) {}
 
   void Read(const YamlValue& value) {
     MapReader map(value, "a map of a cable's keys");
@@ -74,6 +75,7 @@ class CableReader {
     if (type_keys) keys.FillFrom(*type_keys);
     // A type that is not there may have had the keys that are missing.
     const bool complete = map.ok() && (type_keys || !type.given());
+    sections_.Apply(name.Name().value_or(""), &keys, problems_);
     RefuseUncertainFaults(keys);
     if (clamped) RefuseExtensionsOfRecords(keys, problems_);
     CableModel model = complete ? CompleteCable(keys, map.mark(), problems_) : CableModel();
@@ -124,12 +126,13 @@ class CableReader {
   }
 
   const Types& types_;
+  SectionFiles& sections_;
   CableFile* file_;
   Problems* problems_;
   std::map<std::string, int> name_lines_;
 };
 
-void ReadFile(const YamlValue& root, CableFile* file, Problems* problems) {
+void ReadFile(const YamlValue& root, SectionFiles* sections, CableFile* file, Problems* problems) {
   MapReader map(root);
   CheckFormat(map.Required("format"));
   const Types types = ReadTypes(map.Optional("types"));
@@ -140,7 +143,7 @@ void ReadFile(const YamlValue& root, CableFile* file, Problems* problems) {
     cables.Report("got this beside `cable`, expected either `cable` or `cables`");
   }
   file->specimen = specimen.given();
-  CableReader reader(types, file, problems);
+  CableReader reader(types, sections, file, problems);
   if (specimen.given()) reader.Read(specimen);
   if (cables.given()) {
     const std::string expected = "a list of at least one cable";
@@ -149,6 +152,9 @@ void ReadFile(const YamlValue& root, CableFile* file, Problems* problems) {
     for (const YamlValue& item : items) reader.Read(item);
     if (cables.IsList() && items.empty()) cables.ReportUnexpected(expected);
   }
+  std::vector<std::string> names;
+  for (const CableModel& cable : file->cables) names.push_back(cable.name);
+  sections->ReportUnused(names, problems);
   if (map.ok() && !specimen.given() && !cables.given()) {
     problems->Add(map.mark().file, map.mark().line, "cables",
                   "missing, expected `cables` (a list) or `cable` (one specimen)");
@@ -157,11 +163,13 @@ void ReadFile(const YamlValue& root, CableFile* file, Problems* problems) {
 
 }  // namespace
 
-CableFile LoadCableFile(const std::string& path, Problems* problems) {
+CableFile LoadCableFile(const std::string& path, Problems* problems,
+                        const std::vector<std::string>& section_texts) {
   CableFile file;
   Problems found;
+  SectionFiles sections(section_texts, &found);
   const YamlValue root = LoadYamlFile(path, &found);
-  if (root.given()) ReadFile(root, &file, &found);
+  if (root.given()) ReadFile(root, &sections, &file, &found);
   found.SortByLine();
   problems->Append(found);
   return file;

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "cosserat_cable/cable/section_file.h"
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
 #include "cosserat_cable/console/progress.h"

@@ -1,5 +1,7 @@
 #include "cosserat_cable/measurement/specimen.h"
 
+#include "cosserat_cable/cable/section_file.h"
+
 namespace cosserat_cable {
 
 CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment) {
@@ -10,20 +12,7 @@ CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment) 
 
 CableKeys SpecimenKeys(const MeasurementSet& set, const Experiment& experiment,
                        const CableKeys& cable_file) {
-  // What is fitted goes by the file; what is known of the specimen, by the set.
-  CableKeys fitted;
-  fitted.EI = cable_file.EI;
-  fitted.GJ = cable_file.GJ;
-  fitted.EA = cable_file.EA;
-  fitted.GA = cable_file.GA;
-  fitted.eta_EI = cable_file.eta_EI;
-  fitted.eta_GJ = cable_file.eta_GJ;
-  fitted.eta_EA = cable_file.eta_EA;
-  fitted.eta_GA = cable_file.eta_GA;
-  fitted.extensions = cable_file.extensions;
-  fitted.elements = cable_file.elements;
-  fitted.FillFrom(SpecimenKeys(set, experiment));
-  return fitted;
+  return WithFitted(SpecimenKeys(set, experiment), cable_file);
 }
 
 CableKeys WithoutUnknownDamping(CableKeys keys) {
@@ -44,14 +33,6 @@ Specimen MakeSpecimen(const CableKeys& keys, const Experiment& experiment, Probl
   specimen.disc_inertia = experiment.b.disc.inertia;
   specimen.faults = keys.faults.value.value_or(Faults());
   return specimen;
-}
-
-CableKeys LoadSpecimenFile(const std::string& path, Problems* problems) {
-  MapReader file(LoadYamlFile(path, problems));
-  file.Required("format").Integer(1, 1);
-  const YamlValue cable = file.Required("cable");
-  MapReader map(cable);
-  return ReadCableKeys(&map);
 }
 
 }  // namespace cosserat_cable

@@ -181,7 +181,7 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
   if (!(paths.duration >= 0)) problems->Add("", 0, "duration", "expected 0 s (all) or more");
 
   Problems cable_problems;
-  inputs.cables = LoadCableFile(paths.cables, &cable_problems);
+  inputs.cables = LoadCableFile(paths.cables, &cable_problems, paths.sections);
   std::set<std::string> collision, visual;
   for (const CableModel& cable : inputs.cables.cables) {
     for (const std::string& link : cable.avoid)

@@ -172,6 +172,7 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
   InputPaths paths;
   paths.vehicle = options.vehicle;
   paths.cables = options.cables;
+  paths.sections = options.sections;
   paths.bags = options.bags;
   CheckPlacing(options, problems);
   if (options.bags.empty()) RefuseRecordingOptions(options, problems);
@@ -234,7 +235,7 @@ std::optional<Pose> ReadPose(const std::string& text, const char* key, Problems*
 
 Scene Specimen(const ModesOptions& options, Problems* problems) {
   Scene scene;
-  scene.cables = LoadCableFile(options.cables, problems);
+  scene.cables = LoadCableFile(options.cables, problems, options.sections);
   if (problems->empty() && !scene.cables.specimen) {
     problems->Add("", 0, "vehicle", "missing: the file has `cables:`, which hang on a vehicle");
     return scene;

@@ -56,6 +56,7 @@ NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problem
   ParameterReader reader(parameters, problems);
   reader.Read("vehicle", "the path of a URDF file", &options.inputs.vehicle);
   reader.Read("cables", "the path of a YAML file", &options.inputs.cables);
+  reader.Read("sections", "a list of [NAME=]FILE", &options.inputs.sections);
   reader.Read("use_joint_states", "true or false", &options.use_joint_states);
   reader.Read("json", "a path", &options.json);
   reader.Read("world_frame", "a frame", &engine.links.world_frame);

@@ -227,12 +227,10 @@ class DiagnosisChain(unittest.TestCase):
         section = self.make_set()
         verdict = self.diagnose()
 
-        plain = {**section, **{name: value[0] for name, value
-                               in verdict['baseline']['parameters'].items() if value}}
-        with open(self.path('answer', verdict['extended']['cable']), encoding='utf-8') as file:
-            extended = yaml.safe_load(file)['cable']
-        apexes = self.replay([self.installed(plain, 'plain'), self.installed(extended, 'extended')],
-                             'found')
+        files = {'plain': 'baseline_cable.yaml', 'extended': verdict['extended']['cable']}
+        apexes = self.replay([self.installed(section, name) for name in files], 'found',
+                             *(word for name, file in files.items()
+                               for word in ('--section', f'{name}={self.path("answer", file)}')))
         real = points[POINTS.index(0.5)]
         # The verdict's gain is (MSE_plain - MSE_extended)/(MSE_plain - noise^2): its records have
         # the tracker's noise. The real apex here is that of the simulation: its noise^2 is 0.

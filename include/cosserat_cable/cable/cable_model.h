@@ -81,8 +81,10 @@ struct CableFile {
 /// Reads a cable file. Every mistake goes to `problems` with file, line and key, in the order of
 /// the lines: unknown keys with the nearest known one, missing keys, wrong types, numbers that are
 /// not finite or out of range (a length of 200 is named as a likely slip of units), names that
-/// clash. Where `problems` grew, the result is not to be used.
-CableFile LoadCableFile(const std::string& path, Problems* problems);
+/// clash. Where `problems` grew, the result is not to be used. `sections`: as SectionFiles has
+/// them, of a vehicle's cables.
+CableFile LoadCableFile(const std::string& path, Problems* problems,
+                        const std::vector<std::string>& sections = {});
 
 /// The effective configuration: a whole cable file with every default filled in and types spelt
 /// out. It reads back to the same models, bit for bit.

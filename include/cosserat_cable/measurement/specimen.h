@@ -46,7 +46,4 @@ CableKeys WithoutUnknownDamping(CableKeys keys);
 /// The specimen that these keys describe. Missing and unknown values are problems.
 Specimen MakeSpecimen(const CableKeys& keys, const Experiment& experiment, Problems* problems);
 
-/// Reads the keys of the single cable (`cable:`) of a cable file, before defaults.
-CableKeys LoadSpecimenFile(const std::string& path, Problems* problems);
-
 }  // namespace cosserat_cable

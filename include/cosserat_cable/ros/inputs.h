@@ -14,8 +14,10 @@
 namespace cosserat_cable {
 
 struct InputPaths {
-  std::string vehicle;            ///< URDF
-  std::string cables;             ///< YAML
+  std::string vehicle;  ///< URDF
+  std::string cables;   ///< YAML
+  /// Specimens whose section the cables have: "[NAME=]FILE".
+  std::vector<std::string> sections;
   std::vector<std::string> bags;  ///< may be empty
   double start = 0;               ///< after the first bag's begin [s]
   double duration = 0;            ///< [s]; 0: to the end

@@ -11,14 +11,15 @@
 namespace cosserat_cable {
 
 struct ModesOptions {
-  std::string cables;               ///< YAML
-  std::string vehicle;              ///< URDF; empty for a specimen
-  std::string a, b;                 ///< a specimen's clamps, "x, y, z, qx, qy, qz, qw" [m]
-  std::vector<std::string> joints;  ///< "NAME=VALUE,..."; others are at rest, see RestPosition
-  std::vector<std::string> bags;    ///< instead: where the vehicle is at `time` of a recording
-  std::optional<double> time;       ///< after its first sample [s]
-  EngineOptions engine;             ///< gravity, and how the recording is read
-  int count = 6;                    ///< modes of each cable
+  std::string cables;                 ///< YAML
+  std::vector<std::string> sections;  ///< as InputPaths has them
+  std::string vehicle;                ///< URDF; empty for a specimen
+  std::string a, b;                   ///< a specimen's clamps, "x, y, z, qx, qy, qz, qw" [m]
+  std::vector<std::string> joints;    ///< "NAME=VALUE,..."; others are at rest, see RestPosition
+  std::vector<std::string> bags;      ///< instead: where the vehicle is at `time` of a recording
+  std::optional<double> time;         ///< after its first sample [s]
+  EngineOptions engine;               ///< gravity, and how the recording is read
+  int count = 6;                      ///< modes of each cable
   std::string output;  ///< folder for modes.json, shapes and the configuration; may be empty
   std::string json;    ///< file for the numbers; may be empty
 };
