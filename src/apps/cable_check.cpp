@@ -2,16 +2,20 @@
 #include <iostream>
 
 #include "cosserat_cable/console/exit_code.h"
+#include "cosserat_cable/ros/clamp_motions.h"
 #include "cosserat_cable/ros/summary.h"
 #include "engine_arguments.h"
 
 int main(int argc, char** argv) {
   cosserat_cable::InputPaths paths;
   cosserat_cable::EngineOptions engine;
-  std::string json;
+  std::string json, clamps;
   CLI::App app("Checks a vehicle, its cables and a recording, and simulates nothing.");
   cosserat_cable::AddInputArguments(&app, &paths, &engine);
   app.add_option("--json", json, "file for what is printed");
+  app.add_option("--clamps", clamps,
+                 "folder for where the recording moves each cable's clamps, in the inertial frame: "
+                 "motion files of a measurement set, NAME_a.csv and NAME_b.csv");
   int code = 0;
   if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
 
@@ -28,6 +32,18 @@ int main(int argc, char** argv) {
   if (!problems.empty()) {
     std::cerr << problems.ToString();
     return cosserat_cable::kExitBadInput;
+  }
+  if (!clamps.empty() && !inputs.survey) {
+    std::cerr << "clamps: got no recording, expected one (--bag) that moves the vehicle\n";
+    return cosserat_cable::kExitBadInput;
+  }
+  if (!clamps.empty()) {
+    try {
+      cosserat_cable::WriteClampMotions(inputs, engine, clamps);
+    } catch (const std::exception& error) {
+      std::cerr << clamps << ": " << error.what() << "\n";
+      return cosserat_cable::kExitFileTrouble;
+    }
   }
   const std::size_t findings =
       inputs.survey ? inputs.survey->findings.size() + inputs.survey->warnings.size() : 0;

@@ -14,8 +14,11 @@ std::int64_t Period(double rate) { return static_cast<std::int64_t>(std::llround
 class ClampSurvey {
  public:
   ClampSurvey(const std::vector<CableModel>& cables, const EngineOptions& options,
-              LinkMotion* links)
-      : links_(*links), dt_(Period(1 / options.dt)), period_(Period(options.telemetry_rate)) {
+              const ClampObserver& observer, LinkMotion* links)
+      : links_(*links),
+        observer_(observer),
+        dt_(Period(1 / options.dt)),
+        period_(Period(options.telemetry_rate)) {
     const std::vector<std::string>& all = links_.links();
     const auto index = [&](const std::string& link) {
       return static_cast<std::size_t>(std::find(all.begin(), all.end(), link) - all.begin());
@@ -58,12 +61,15 @@ class ClampSurvey {
   void Judge(std::int64_t time) {
     for (std::size_t c = 0; c < ends_.size(); ++c) {
       const Ends& ends = ends_[c];
-      judges_[c].Add(time, links_.Follow(ends.a, time).X * ends.X_LA,
-                     links_.Follow(ends.b, time).X * ends.X_LB);
+      const Pose X_WA = links_.Follow(ends.a, time).X * ends.X_LA;
+      const Pose X_WB = links_.Follow(ends.b, time).X * ends.X_LB;
+      judges_[c].Add(time, X_WA, X_WB);
+      if (observer_) observer_(c, time, X_WA, X_WB);
     }
   }
 
   LinkMotion& links_;
+  const ClampObserver& observer_;
   std::int64_t dt_, period_;  // [ns]
   std::vector<Ends> ends_;
   std::vector<ClampJudge> judges_;
@@ -82,11 +88,11 @@ void Feed(const BagMessage& message, LinkMotion* links) {
 std::vector<ClampJudge> FollowClamps(const BagReader& bags, std::int64_t from, std::int64_t to,
                                      const VehicleModel& vehicle,
                                      const std::vector<CableModel>& cables,
-                                     const EngineOptions& options) {
+                                     const EngineOptions& options, const ClampObserver& observer) {
   LinkMotionOptions link_options = options.links;
   link_options.judge = false;
   LinkMotion links(vehicle, NeededLinks(cables), link_options);
-  ClampSurvey survey(cables, options, &links);
+  ClampSurvey survey(cables, options, observer, &links);
   std::int64_t follow_at = from + kReadAhead;
   bags.ForEach(from, to, [&](const BagMessage& message) {
     if (message.time >= follow_at) {

@@ -13,12 +13,11 @@ import os
 import subprocess
 import tempfile
 import unittest
-import xml.etree.ElementTree as ElementTree
 
 import numpy as np
 import rosbag
 import yaml
-from geometry_msgs.msg import PointStamped, PoseStamped
+from geometry_msgs.msg import PointStamped
 
 from helpers import ROOT, run
 
@@ -56,12 +55,6 @@ NUMBER = 0.03
 LEAST_ERROR = 2 * NOISE
 
 
-def multiply(p, q):
-    """Product of two rotations, x y z w."""
-    v = p[3] * q[:3] + q[3] * p[:3] + np.cross(p[:3], q[:3])
-    return np.append(v, p[3] * q[3] - p[:3] @ q[:3])
-
-
 def rotate(q, v):
     return v + 2 * np.cross(q[:3], np.cross(q[:3], v) + q[3] * v)
 
@@ -80,24 +73,16 @@ def shipped_cable():
     return cable
 
 
-def section_of(cable):
-    """What a specimen's file has: the cable without its place in the vehicle."""
-    return {key: value for key, value in cable.items() if key not in ('name', 'a', 'b')}
-
-
-def read_ride(path):
-    """({stamp: pose of base_link in odom}, {stamp: {joint: position}}); a pose is (position,
-    rotation)."""
-    body, joints = {}, {}
+def read_body(path):
+    """{stamp: pose of base_link in odom}; a pose is (position, rotation)."""
+    body = {}
     with rosbag.Bag(path) as bag:
-        for topic, message, _ in bag.read_messages():
-            if topic == '/joint_states':
-                joints[message.header.stamp.to_nsec()] = dict(zip(message.name, message.position))
-            for transform in message.transforms if topic == '/tf' else []:
+        for _, message, _ in bag.read_messages(topics=['/tf']):
+            for transform in message.transforms:
                 pose = transform.transform
                 body[transform.header.stamp.to_nsec()] = (numbers(pose.translation, 'xyz'),
                                                           numbers(pose.rotation, 'xyzw'))
-    return body, joints
+    return body
 
 
 def read_apex(path, name):
@@ -105,20 +90,6 @@ def read_apex(path, name):
     with rosbag.Bag(path) as bag:
         return {m.header.stamp.to_nsec(): numbers(m, ('position_x', 'position_y', 'position_z'))
                 for _, m, _ in bag.read_messages(topics=[f'/cables/{name}/apex'])}
-
-
-def carrier_in_body(joints, corner):
-    """Pose of a front wheel's carrier: the strut moves along z, the carrier turns about z."""
-    joint = ElementTree.parse(URDF).getroot().find(f"joint[@name='{corner}_travel']")
-    strut = np.array([float(x) for x in joint.find('origin').get('xyz').split()])
-    half = joints[f'{corner}_steer'] / 2
-    return (strut + [0, 0, joints[f'{corner}_travel']],
-            np.array([0, 0, np.sin(half), np.cos(half)]))
-
-
-def stamped(message, stamp, frame):
-    message.header.stamp, message.header.frame_id = stamp, frame
-    return message
 
 
 class DiagnosisChain(unittest.TestCase):
@@ -166,9 +137,8 @@ class DiagnosisChain(unittest.TestCase):
         return list(points.values())
 
     def track(self, points):
-        """The ride's bag with what a tracker sees from the road: the carrier and the points."""
-        body, joints = read_ride(self.path('ride.bag'))
-        corner = self.cable['b']['link'].split('_')[0]
+        """The ride's bag with what a tracker sees of the points from the road."""
+        body = read_body(self.path('ride.bag'))
         random = np.random.default_rng(SEED)
         end = min(body) + TRACKED * 1e9
         with rosbag.Bag(self.path('tracked.bag'), 'w') as bag:
@@ -178,32 +148,26 @@ class DiagnosisChain(unittest.TestCase):
                     if topic != '/joint_states' or stamp.to_nsec() > end:
                         continue
                     p, q = body[stamp.to_nsec()]
-                    at, turn = carrier_in_body(joints[stamp.to_nsec()], corner)
-                    carrier = stamped(PoseStamped(), stamp, 'odom')
-                    place, turned = carrier.pose.position, carrier.pose.orientation
-                    place.x, place.y, place.z = p + rotate(q, at)
-                    turned.x, turned.y, turned.z, turned.w = multiply(q, turn)
-                    bag.write('/tracker/carrier', carrier, stamp)
                     for i, positions in enumerate(points):
-                        point = stamped(PointStamped(), stamp, 'odom')
+                        point = PointStamped()
+                        point.header.stamp, point.header.frame_id = stamp, 'odom'
                         point.point.x, point.point.y, point.point.z = (
                             p + rotate(q, positions[stamp.to_nsec()])
                             + NOISE * random.standard_normal(3))
                         bag.write(f'/tracker/point_{i}', point, stamp)
 
     def make_set(self):
-        section = {**section_of(self.cable), 'elements': FITTED_ELEMENTS,
-                   'uncertain': ['EI', 'eta_EI']}
-        section['EI'] *= NOMINAL_EI
-        pose = {side: ','.join(map(str, self.cable[side]['pose'])) for side in 'ab'}
+        """Returns the cable as its file has it."""
+        nominal = {**self.cable, 'name': CABLE, 'elements': FITTED_ELEMENTS,
+                   'uncertain': ['EI', 'eta_EI'], 'EI': NOMINAL_EI * self.cable['EI']}
         channels = [word for i, part in enumerate(POINTS) for axis in 'xyz' for word in (
             '--channel', f'p{i}_{axis}=/tracker/point_{i},quantity=position,axis={axis},'
             f's={part * self.cable["length"]},sigma={NOISE}')]
         self.script('bag_to_set', self.path('tracked.bag'), '-o', self.path('set'), '--experiment',
-                    'ride', '--cable', self.write_yaml('section.yaml', {'cable': section}),
-                    '--start', 'rest', '--clamp-a', 'tf:odom:base_link', '--offset-a', pose['a'],
-                    '--clamp-b', '/tracker/carrier', '--offset-b', pose['b'], *channels)
-        return section
+                    'ride', '--vehicle', URDF, '--cables',
+                    self.write_yaml('nominal.yaml', {'cables': [nominal]}), '--name', CABLE,
+                    '--start', 'rest', *channels)
+        return nominal
 
     def diagnose(self):
         out = self.program('cable_diagnose', self.path('set'), '--output', self.path('answer'),
@@ -216,19 +180,15 @@ class DiagnosisChain(unittest.TestCase):
             self.assertLess(abs(found[0] / true - 1), NUMBER, key)
         return verdict
 
-    def installed(self, section, name):
-        """A section in the place that the cable has in the car."""
-        return {**section, 'name': name, 'a': self.cable['a'], 'b': self.cable['b']}
-
     def test_the_ride_is_replayed_better_by_the_gain_claimed(self):
         self.script('make_ride_bag', self.path('ride.bag'), '--duration', RIDE, '--rate', RATE)
         points = self.drive_the_real_cable()
         self.track(points)
-        section = self.make_set()
+        nominal = self.make_set()
         verdict = self.diagnose()
 
         files = {'plain': 'baseline_cable.yaml', 'extended': verdict['extended']['cable']}
-        apexes = self.replay([self.installed(section, name) for name in files], 'found',
+        apexes = self.replay([{**nominal, 'name': name} for name in files], 'found',
                              *(word for name, file in files.items()
                                for word in ('--section', f'{name}={self.path("answer", file)}')))
         real = points[POINTS.index(0.5)]
