@@ -577,7 +577,13 @@ FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& mo
     if (last) LeaveOutUnseen(best.values, noise, model);
     FitOptions options = kOnTheWay;
     if (!comparable) options.held = Powerless(*model, best.values, horizon, noise);
-    best = Fit(*model, best.values, horizon, noise, options, progress);
+    FitResult next = Fit(*model, best.values, horizon, noise, options, progress);
+    if (next.interrupted && !next.ok) {
+      // What was found on the shorter part stands.
+      best.interrupted = true;
+      return best;
+    }
+    best = std::move(next);
     if (best.interrupted) return best;
   }
   return best;

@@ -64,8 +64,9 @@ double EstimationWork::QuantileOf(int unknown, const Determination& determinatio
 }
 
 void EstimationWork::ReportChannels() {
-  const std::vector<std::vector<ReferenceResiduals>> references =
-      FindReferenceResiduals(unknowns_.set(), model_.usable());
+  std::vector<std::vector<ReferenceResiduals>> references;
+  if (!estimation_.interrupted)
+    references = FindReferenceResiduals(unknowns_.set(), model_.usable());
   for (std::size_t e = 0; e < experiments().size(); ++e) {
     const Experiment& experiment = experiments()[e];
     ExperimentFit fit;
@@ -78,7 +79,7 @@ void EstimationWork::ReportChannels() {
       channel.sigma = noise_[e][column];
       channel.sigma_given = experiment.channels[c].sigma.has_value();
       channel.rms = RootMeanSquare(CountedResiduals(experiment, simulated_[e], Counted(e), column));
-      channel.reference = references[e][c];
+      if (!references.empty()) channel.reference = references[e][c];
       channel.correlation_samples = colours_[e][c].correlation_samples;
       channel.noise = Level(e, column);
       if (!model_.IsLeftOut(static_cast<int>(e)))

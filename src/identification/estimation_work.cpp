@@ -22,6 +22,27 @@ constexpr double kFarMore = 30;
 // Of the whole work: what is done when the records are fitted as a whole, and what a round adds.
 constexpr double kPartOfStart = 0.35, kPartOfRound = 0.08;
 
+/// Derivatives of the records' beginnings as those of the whole, which say nothing of the rest.
+RecordJacobian OfWholeRecords(const RecordJacobian& beginnings,
+                              const std::vector<Experiment>& experiments, int unknowns) {
+  std::vector<RecordJacobian::Record> records(experiments.size());
+  for (std::size_t e = 0; e < experiments.size(); ++e) {
+    const Eigen::MatrixXd& values = experiments[e].record.values;
+    records[e].columns.resize(values.size(), 0);
+    if (e >= beginnings.records().size()) continue;
+    const RecordJacobian::Record& part = beginnings.records()[e];
+    records[e].unknowns = part.unknowns;
+    records[e].columns = Eigen::MatrixXd::Zero(values.size(), part.columns.cols());
+    const Eigen::Index samples = part.columns.rows() / values.cols();
+    for (Eigen::Index c = 0; c < values.cols(); ++c)
+      records[e].columns.middleRows(c * values.rows(), samples) =
+          part.columns.middleRows(c * samples, samples);
+  }
+  const bool has_priors = beginnings.priors().size() == unknowns;
+  return RecordJacobian(std::move(records),
+                        has_priors ? beginnings.priors() : Eigen::VectorXd::Zero(unknowns).eval());
+}
+
 }  // namespace
 
 Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
@@ -164,7 +185,11 @@ bool EstimationWork::Hurry() {
   Eigen::Index rows = 0;
   for (const RecordJacobian::Record& record : fit_.jacobian.records())
     rows += record.columns.rows();
-  if (rows < FirstRow(model_, static_cast<int>(experiments().size()))) {
+  const bool whole = rows == FirstRow(model_, static_cast<int>(experiments().size()));
+  if (!whole && estimation_.interrupted) {
+    // Nobody waits for new ones: what the beginnings of the records say is less, and true.
+    optimum_.jacobian = OfWholeRecords(fit_.jacobian, experiments(), unknowns_.size());
+  } else if (!whole) {
     Eigen::VectorXd steps = model_.SmallSteps();
     Linearised last = Linearise(model_, optimum_.values, model_.WholeHorizon(), noise_,
                                 RecordModel::Difference::kForward, false, &steps);
@@ -228,6 +253,7 @@ bool EstimationWork::FitFromStart() {
     return false;
   }
   optimum_.values = start.values;
+  fit_ = start;
   if (start.interrupted) return Hurry();
   LoosenNoise();
   return FitToEnd();

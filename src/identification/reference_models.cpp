@@ -20,7 +20,6 @@ constexpr int kTaps = 13;
 constexpr int kInputs = 9;
 // Of the ridge, by sample: what is tried.
 constexpr double kRidges[] = {1e-6, 1e-4, 1e-2};
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 bool IsFiltered(const Experiment& experiment) {
   return !experiment.quasi_static() && (experiment.a.motion || experiment.b.motion);
@@ -127,7 +126,7 @@ void Filter(std::vector<Part> parts, std::vector<std::vector<ReferenceResiduals>
     double squares = 0;
     for (std::size_t k = 0; k < parts.size(); ++k) {
       seen.push_back(LeftBy(parts[k], weights));
-      unseen.push_back(kNaN);
+      unseen.push_back(ReferenceResiduals::kNone);
       if (parts.size() > 1) {
         Products others = whole;
         others.Add(own[k], -1);
@@ -154,7 +153,7 @@ std::vector<std::vector<ReferenceResiduals>> FindReferenceResiduals(const Measur
   std::map<std::string, std::vector<Part>> by_column;
   for (std::size_t e = 0; e < set.experiments.size(); ++e) {
     const Experiment& experiment = set.experiments[e];
-    all.emplace_back(experiment.channels.size(), ReferenceResiduals{kNaN, kNaN, kNaN});
+    all.emplace_back(experiment.channels.size(), ReferenceResiduals());
     const Eigen::MatrixXd inputs =
         IsFiltered(experiment) ? InputsOf(experiment) : Eigen::MatrixXd();
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
