@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <random>
 
 #include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/fit/noise.h"
@@ -33,21 +31,6 @@ constexpr double kFarthest = 5;
 // No channel is taken to be better than this part of the widest range of its kind in its record:
 // simulations are not.
 constexpr double kBestChannel = 1e-7;
-// Parts of the records that are fitted one after the other, and the fewest samples of a part.
-constexpr double kParts[] = {0.06, 0.25, 1.0};
-constexpr int kFewestSamples = 40;
-// Of the slowest swing: in the first, the start is seen whatever the cable, in the second both.
-constexpr double kStartPeriods[] = {0.3, 1.0};
-// Of what is left over, what a parameter should explain at least when it moves by its whole size.
-constexpr double kPower = 0.01;
-const FitOptions kOnTheWay = [] {
-  FitOptions options;
-  options.loose = true;
-  return options;
-}();
-// Where the search looks: around the start, within these factors.
-constexpr double kStiffnessSpread = 1.6, kWideSpread = 6.0;
-constexpr int kPoints = 24, kBest = 2;
 // A derivative whose records, over the unknown's whole size, stay below this part of the noise's
 // sum of squares is none.
 constexpr double kUnseen = 1e-3;
@@ -55,7 +38,6 @@ constexpr double kUnseen = 1e-3;
 // loss that rounding may make.
 constexpr int kPolishSteps = 6;
 constexpr double kPolished = 1e-4, kPolishNoise = 1e-2;
-constexpr std::uint32_t kSeed = 20150113;
 
 /// Half the sums of squares, infinite where a simulation failed.
 std::vector<double> CostsOf(const RecordModel& model, const std::vector<Eigen::VectorXd>& points,
@@ -242,51 +224,6 @@ class RecordProblem : public LeastSquaresProblem {
 int SamplesUntil(const Experiment& experiment, double time) {
   const std::vector<double>& t = experiment.record.t;
   return static_cast<int>(std::upper_bound(t.begin(), t.end(), time) - t.begin());
-}
-
-void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, RecordModel* model) {
-  Eigen::VectorXd steps = model->SmallSteps();
-  const Linearised found = Linearise(*model, values, model->WholeHorizon(), noise,
-                                     RecordModel::Difference::kForward, true, &steps);
-  if (!found.ok) return;
-  const auto& records = found.jacobian.records();
-  for (std::size_t e = 0; e < records.size(); ++e)
-    for (std::size_t k = 0; k < records[e].unknowns.size(); ++k)
-      if (records[e].columns.col(static_cast<Eigen::Index>(k)).squaredNorm() < kUnseen)
-        model->Ignore(records[e].unknowns[k], static_cast<int>(e));
-}
-
-/// Spread evenly over the box around the start, the same on each run.
-std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
-  std::mt19937 random(kSeed);
-  // A Latin hypercube: every unknown takes each of its levels once.
-  std::vector<std::vector<int>> levels(unknowns.size());
-  for (auto& order : levels) {
-    order.resize(kPoints);
-    for (int k = 0; k < kPoints; ++k) order[k] = k;
-    for (int k = kPoints - 1; k > 0; --k)
-      std::swap(order[k], order[random() % static_cast<std::uint32_t>(k + 1)]);
-  }
-  std::vector<Eigen::VectorXd> points;
-  for (int k = 0; k < kPoints; ++k) {
-    Eigen::VectorXd values = unknowns.StartValues();
-    for (int i = 0; i < unknowns.size(); ++i) {
-      const Unknown& u = unknowns.all()[i];
-      if (u.kind != Unknown::Kind::kCable) continue;
-      const double level = 2 * (levels[i][k] + 0.5) / kPoints - 1;  // in (-1, 1)
-      if (u.sign == ParameterSign::kSigned) {
-        values[i] += level * u.scale;
-      } else {
-        // What is known of a law beyond the plain rod is little more than its size.
-        const bool hardly_known = u.damping ? !u.start_known : IsOfEntry(u.name);
-        const double spread = hardly_known ? kWideSpread : kStiffnessSpread;
-        values[i] = (values[i] > 0 ? values[i] : u.scale) * std::pow(spread, level);
-      }
-      values[i] = std::clamp(values[i], u.lower, u.upper);
-    }
-    points.push_back(values);
-  }
-  return points;
 }
 
 }  // namespace
@@ -490,103 +427,6 @@ bool Polish(const RecordModel& model, const RecordJacobian& jacobian, const Nois
     }
   }
   return false;
-}
-
-/// The cable's parameters that explain little of what is left over, however far they are moved:
-/// while much is, they would only be led astray.
-std::vector<int> Powerless(const RecordModel& model, const Eigen::VectorXd& values,
-                           const Horizon& horizon, const NoiseLevels& noise) {
-  std::vector<int> powerless;
-  Eigen::VectorXd steps = model.SmallSteps();
-  const Linearised found =
-      Linearise(model, values, horizon, noise, RecordModel::Difference::kForward, true, &steps);
-  if (!found.ok) return powerless;
-  const double left = found.residuals.squaredNorm();
-  const Eigen::VectorXd shown = found.jacobian.SquaredNorms();
-  for (int i = 0; i < model.unknowns().size(); ++i)
-    if (model.unknowns().all()[i].kind == Unknown::Kind::kCable && shown[i] < kPower * left)
-      powerless.push_back(i);
-  return powerless;
-}
-
-/// From a point, to the first part of the records.
-FitResult FitFirst(const RecordModel& model, Eigen::VectorXd values, const Horizon& horizon,
-                   const NoiseLevels& noise, const FitProgress& progress) {
-  FitOptions options = kOnTheWay;
-  for (const double periods : kStartPeriods) {
-    const std::optional<Horizon> beginning = model.Beginning(periods);
-    if (!beginning) return Fit(model, values, horizon, noise, options, progress);
-    if (periods == kStartPeriods[0]) {
-      for (int i = 0; i < model.unknowns().size(); ++i)
-        if (model.unknowns().all()[i].kind == Unknown::Kind::kCable) options.held.push_back(i);
-    } else {
-      options.held = Powerless(model, values, *beginning, noise);
-    }
-    const FitResult fit = Fit(model, values, *beginning, noise, options, progress);
-    if (fit.interrupted) return fit;
-    if (fit.ok) values = fit.values;
-  }
-  options.held = Powerless(model, values, horizon, noise);
-  return Fit(model, values, horizon, noise, options, progress);
-}
-
-FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
-                      const NoiseLevels& noise, const FitProgress& progress) {
-  std::vector<Eigen::VectorXd> points = more;
-  points.push_back(model->unknowns().StartValues());
-  // Where a start is unknown, all points look alike before it is fitted.
-  const auto& experiments = model->unknowns().set().experiments;
-  const bool comparable =
-      std::none_of(experiments.begin(), experiments.end(), [](const Experiment& experiment) {
-        return experiment.start.kind == StartCondition::Kind::kUnknown;
-      });
-  if (comparable) {
-    const std::vector<Eigen::VectorXd> around = PointsAround(model->unknowns());
-    points.insert(points.end(), around.begin(), around.end());
-  }
-  const Horizon first = model->PartialHorizon(kParts[0], kFewestSamples);
-  if (progress && !progress("looking for a start")) {
-    FitResult stopped;
-    stopped.interrupted = true;
-    return stopped;
-  }
-  const std::vector<RecordModel::Simulated> all = model->Simulate(points, first);
-  std::vector<std::pair<double, std::size_t>> ranking;
-  std::string why;
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    if (!all[p].ok) {
-      why = all[p].message;
-      continue;
-    }
-    const double cost = WeightedResiduals(*model, points[p], all[p].records, noise).squaredNorm();
-    if (std::isfinite(cost)) ranking.push_back({cost, p});
-  }
-  FitResult best;
-  best.message = why;
-  if (ranking.empty()) return best;
-  std::sort(ranking.begin(), ranking.end());
-  for (std::size_t k = 0; k < std::min<std::size_t>(kBest, ranking.size()); ++k) {
-    const FitResult fit = FitFirst(*model, points[ranking[k].second], first, noise, progress);
-    if (fit.interrupted) return fit;
-    if (fit.ok && (!best.ok || fit.cost < best.cost)) best = fit;
-  }
-  for (std::size_t part = 1; part < std::size(kParts) && best.ok; ++part) {
-    const bool last = part + 1 == std::size(kParts);
-    const Horizon horizon =
-        last ? model->WholeHorizon() : model->PartialHorizon(kParts[part], kFewestSamples);
-    if (last) LeaveOutUnseen(best.values, noise, model);
-    FitOptions options = kOnTheWay;
-    if (!comparable) options.held = Powerless(*model, best.values, horizon, noise);
-    FitResult next = Fit(*model, best.values, horizon, noise, options, progress);
-    if (next.interrupted && !next.ok) {
-      // What was found on the shorter part stands.
-      best.interrupted = true;
-      return best;
-    }
-    best = std::move(next);
-    if (best.interrupted) return best;
-  }
-  return best;
 }
 
 }  // namespace cosserat_cable
