@@ -26,6 +26,11 @@ Specimen EstimateStart(const Experiment& experiment, const CableKeys& keys, Prob
   options.end_damping = false;
   const Unknowns unknowns(set, options, problems);
   if (!problems->empty()) return {};
+  if (unknowns.size() == 0) {
+    problems->Add(experiment.mark,
+                  "its start is unknown, and no rest of the cable was found about which it swings");
+    return {};
+  }
   RecordModel model(unknowns);
   Eigen::VectorXd values = unknowns.StartValues();
   const Specimen resting = unknowns.MakeSpecimen(0, values, problems);

@@ -45,6 +45,7 @@ std::vector<StartShape> StartShapes(const Experiment& experiment, const Specimen
   const double fastest = record.t.size() > 1 ? kPi / MedianInterval(record.t) : 0.0;  // [rad/s]
   std::vector<StartShape> seen;
   std::vector<double> effects;
+  double slowest = 0;  // [rad/s] of what swings: clamps that may roll let the whole cable turn
   const double length = specimen.cable.length;
   for (SwingShape& shape :
        FindSwingShapes(experiment, specimen, specimen.cable.elements, kMostShapes)) {
@@ -57,8 +58,8 @@ std::vector<StartShape> StartShapes(const Experiment& experiment, const Specimen
       effect += by * by;
       ranges += std::pow(column.maxCoeff() - column.minCoeff(), 2);
     }
-    const double slowness =
-        seen.empty() ? 1.0 : std::min(1.0, seen.front().shape.w / std::max(shape.w, 1e-9));
+    if (slowest == 0) slowest = shape.w;
+    const double slowness = shape.w > slowest ? slowest / shape.w : 1.0;
     // Shapes have a largest displacement of 1 m, or turn of 1 rad: where only forces are measured.
     double size = 0.1 * length;
     if (effect > 0) size = kGenerous * std::sqrt(ranges / effect);

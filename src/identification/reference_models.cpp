@@ -19,34 +19,53 @@ constexpr int kTaps = 13;
 // A clamp's inputs: its position, and two of its axes.
 constexpr int kInputs = 9;
 // Of the ridge, by sample: what is tried.
-constexpr double kRidges[] = {1e-6, 1e-4, 1e-2};
+constexpr double kRidges[] = {1e-6, 1e-4, 1e-2, 0.1, 1};
 
 bool IsFiltered(const Experiment& experiment) {
   return !experiment.quasi_static() && (experiment.a.motion || experiment.b.motion);
 }
 
-/// A row per sample: the constant one, then what the clamps have done until then. A clamp that
-/// stands has constant inputs.
-Eigen::MatrixXd InputsOf(const Experiment& experiment) {
+/// What the filter sees of an experiment, a row per sample.
+struct Inputs {
+  Eigen::MatrixXd rows;  ///< the constant one, then what the clamps have done until then
+  /// In the middle of the clamps [m]: positions are seen from there, wherever in the world it is.
+  Eigen::MatrixXd middle;
+};
+
+Inputs InputsOf(const Experiment& experiment) {
   const std::vector<double>& t = experiment.record.t;
-  Eigen::MatrixXd inputs =
-      Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(t.size()), 1 + 2 * kTaps * kInputs);
-  inputs.col(0).setOnes();
-  Eigen::Index column = 1;
+  const auto samples = static_cast<Eigen::Index>(t.size());
+  Inputs inputs{Eigen::MatrixXd::Zero(samples, 1 + 2 * kTaps * kInputs),
+                Eigen::MatrixXd::Zero(samples, 3)};
+  inputs.rows.col(0).setOnes();
+  std::vector<PoseCurve> curves;
   for (const EndCondition* end : {&experiment.a, &experiment.b}) {
-    if (!end->motion) continue;
+    if (end->kind != EndCondition::Kind::kClamp) continue;
     PoseCurve curve(std::numeric_limits<double>::infinity());
-    for (std::size_t i = 0; i < end->motion->t.size(); ++i)
-      curve.Append(end->motion->t[i], end->motion->poses[i]);
+    if (end->motion)
+      for (std::size_t i = 0; i < end->motion->t.size(); ++i)
+        curve.Append(end->motion->t[i], end->motion->poses[i]);
+    else
+      curve.Append(t.front(), end->pose);
     curve.Finish();
+    curves.push_back(std::move(curve));
+  }
+  for (Eigen::Index i = 0; i < samples; ++i) {
+    const double now = t[static_cast<std::size_t>(i)];
+    for (PoseCurve& curve : curves)
+      inputs.middle.row(i) +=
+          curve.Follow(now).X.p.transpose() / static_cast<double>(curves.size());
+  }
+  Eigen::Index column = 1;
+  for (PoseCurve& curve : curves)
     for (int tap = 0; tap < kTaps; ++tap, column += kInputs)
-      for (std::size_t i = 0; i < t.size(); ++i) {
-        const Pose pose = curve.Follow(t[i] - kMemory * tap / (kTaps - 1)).X;
+      for (Eigen::Index i = 0; i < samples; ++i) {
+        const double then = t[static_cast<std::size_t>(i)] - kMemory * tap / (kTaps - 1);
+        const Pose pose = curve.Follow(then).X;
         const Eigen::Matrix3d R = pose.q.toRotationMatrix();
-        inputs.row(static_cast<Eigen::Index>(i)).segment<kInputs>(column) << pose.p.transpose(),
+        inputs.rows.row(i).segment<kInputs>(column) << pose.p.transpose() - inputs.middle.row(i),
             R.col(0).transpose(), R.col(2).transpose();
       }
-  }
   return inputs;
 }
 
@@ -154,8 +173,7 @@ std::vector<std::vector<ReferenceResiduals>> FindReferenceResiduals(const Measur
   for (std::size_t e = 0; e < set.experiments.size(); ++e) {
     const Experiment& experiment = set.experiments[e];
     all.emplace_back(experiment.channels.size(), ReferenceResiduals());
-    const Eigen::MatrixXd inputs =
-        IsFiltered(experiment) ? InputsOf(experiment) : Eigen::MatrixXd();
+    const Inputs inputs = IsFiltered(experiment) ? InputsOf(experiment) : Inputs();
     for (std::size_t c = 0; c < experiment.channels.size(); ++c) {
       const auto column = static_cast<Eigen::Index>(c);
       std::vector<Eigen::Index> rows;
@@ -166,10 +184,15 @@ std::vector<std::vector<ReferenceResiduals>> FindReferenceResiduals(const Measur
       for (std::size_t k = 0; k < rows.size(); ++k)
         part.values[static_cast<Eigen::Index>(k)] = experiment.record.values(rows[k], column);
       all[e][c].constant = RootMeanSquare((part.values.array() - part.values.mean()).matrix());
-      if (inputs.size() == 0) continue;
-      part.inputs.resize(part.values.size(), inputs.cols());
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        part.inputs.row(static_cast<Eigen::Index>(k)) = inputs.row(rows[k]);
+      if (inputs.rows.size() == 0) continue;
+      const Channel& channel = experiment.channels[c];
+      const bool in_world = channel.quantity == Quantity::kPosition && !channel.in_frame_a;
+      part.inputs.resize(part.values.size(), inputs.rows.cols());
+      for (std::size_t k = 0; k < rows.size(); ++k) {
+        part.inputs.row(static_cast<Eigen::Index>(k)) = inputs.rows.row(rows[k]);
+        if (in_world)
+          part.values[static_cast<Eigen::Index>(k)] -= inputs.middle(rows[k], channel.axis);
+      }
       by_column[experiment.channels[c].column].push_back(std::move(part));
     }
   }

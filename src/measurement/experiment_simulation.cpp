@@ -331,8 +331,12 @@ std::vector<SwingShape> FindSwingShapes(const Experiment& experiment, const Spec
   std::vector<SwingShape> shapes;
   if (!rig.Start(&message)) return shapes;
   const rod::Rod held = rig.WithSlidesHeld();
-  for (const rod::Mode& mode : rod::FindModes(held, count, rig.load()))
-    shapes.push_back({mode.w, mode.zeta, mode.displacement, mode.rotation});
+  for (rod::Mode& mode : rod::FindModes(held, count, rig.load())) {
+    for (int i = 0; i <= elements; ++i)
+      mode.rotation[static_cast<std::size_t>(i)] =
+          held.pose(i).q.conjugate() * mode.rotation[static_cast<std::size_t>(i)];
+    shapes.push_back({mode.w, mode.zeta, std::move(mode.displacement), std::move(mode.rotation)});
+  }
   return shapes;
 }
 

@@ -202,7 +202,11 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
 
   // End b is held about its axis until it is let go.
   const bool twisted = start.kind == StartCondition::Kind::kTwisted;
-  rod::Rod settling(Model(twisted ? Turn::kHeld : Turn::kFree));
+  rod::RodModel at_rest = Model(twisted ? Turn::kHeld : Turn::kFree);
+  // Where nothing says how the sections are turned about the axis, clamp a's do: rests that are
+  // found apart, at other numbers of elements, are then one.
+  if (!at_rest.b.rotation[2]) at_rest.a.rotation[2] = true;
+  rod::Rod settling(at_rest);
   // An end that is held about its axis is held where this cable has it, not a cable like it.
   if (!Settle(twisted ? nullptr : near, &settling, message)) return false;
   rest_.resize(elements_ + 1);
@@ -232,7 +236,8 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   const Eigen::Matrix3d R_b = b_.q.toRotationMatrix();
   Vector3d along;
   for (int k = 0; k < 3; ++k) along[k] = model.b.translation[k];
-  const SwungShape swung(nodes, specimen_.swing, R_b * along.asDiagonal() * R_b.transpose());
+  const SwungShape swung(nodes, specimen_.cable.length, specimen_.swing,
+                         R_b * along.asDiagonal() * R_b.transpose());
   if (swings) nodes = swung.Nodes();
   if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
   section_ = model.section;

@@ -35,11 +35,17 @@ Quaterniond Middle(const Quaterniond& left, const Vector3d& turn) {
   return left * RotationExp(0.5 * turn);
 }
 
+/// What an arc of length `h` that turns by `theta` is longer than its chord, in the middle's frame:
+/// the rod's elements are as long as their arcs.
+Vector3d ArcBeyondChord(double h, const Vector3d& theta) {
+  return h / 24 * (theta.squaredNorm() * Vector3d::UnitZ() - theta.z() * theta);
+}
+
 }  // namespace
 
-SwungShape::SwungShape(const std::vector<Pose>& rest, const Swing& swing,
+SwungShape::SwungShape(const std::vector<Pose>& rest, double length, const Swing& swing,
                        const Eigen::Matrix3d& held)
-    : rest_(rest), swing_(swing), held_(held) {}
+    : rest_(rest), h_(length / static_cast<double>(rest.size() - 1)), swing_(swing), held_(held) {}
 
 std::vector<Pose> SwungShape::At(double time) const {
   const std::size_t last = rest_.size() - 1;
@@ -54,25 +60,23 @@ std::vector<Pose> SwungShape::At(double time) const {
     return Resampled(swing_.displacement, fraction(i)) +
            time * Resampled(swing_.velocity, fraction(i));
   };
+  const auto turn = [](const Quaterniond& from, const Quaterniond& to) -> Vector3d {
+    return RotationLog(from.conjugate() * to);
+  };
   std::vector<Pose> nodes(rest_.size());
-  nodes[0] = {rest_[0].p + displacement(0), rest_[0].q * RotationExp(rotation(0))};
+  for (std::size_t i = 0; i <= last; ++i)
+    nodes[i].q = (rest_[i].q * RotationExp(rotation(i))).normalized();
+  nodes[0].p = rest_[0].p + displacement(0);
   for (std::size_t i = 0; i < last; ++i) {
-    const Quaterniond turn = rest_[i].q.conjugate() * rest_[i + 1].q;
-    const Vector3d rest_turn = RotationLog(turn);
-    const Vector3d swung_turn = rest_turn + rotation(i + 1) - turn.conjugate() * rotation(i);
-    const Vector3d strain =
-        Middle(rest_[i].q, rest_turn).conjugate() * (rest_[i + 1].p - rest_[i].p);
-    nodes[i + 1].p = nodes[i].p + Middle(nodes[i].q, swung_turn) * strain;
-    nodes[i + 1].q = (nodes[i].q * RotationExp(swung_turn)).normalized();
+    const Vector3d rest_turn = turn(rest_[i].q, rest_[i + 1].q);
+    const Vector3d swung_turn = turn(nodes[i].q, nodes[i + 1].q);
+    const Vector3d chord =
+        Middle(rest_[i].q, rest_turn).conjugate() * (rest_[i + 1].p - rest_[i].p) +
+        ArcBeyondChord(h_, rest_turn) - ArcBeyondChord(h_, swung_turn);
+    nodes[i + 1].p = nodes[i].p + Middle(nodes[i].q, swung_turn) * chord;
   }
-  if (held_.isZero()) return nodes;
   const Vector3d gap = held_ * (rest_[last].p + displacement(last) - nodes[last].p);
-  const Vector3d twist =
-      RotationLog(nodes[last].q.conjugate() * rest_[last].q * RotationExp(rotation(last)));
-  for (std::size_t i = 1; i <= last; ++i) {
-    nodes[i].p += fraction(i) * gap;
-    nodes[i].q = (nodes[i].q * RotationExp(fraction(i) * twist)).normalized();
-  }
+  for (std::size_t i = 1; i <= last; ++i) nodes[i].p += fraction(i) * gap;
   return nodes;
 }
 

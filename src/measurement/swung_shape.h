@@ -9,15 +9,16 @@
 
 namespace cosserat_cable {
 
-/// The sections' rotations of a swing change the curvatures of the rest; the shape is what these
-/// curvatures make of the cable. So a large swing does not stretch it, as displacements along its
-/// straight shapes would.
+/// The sections turn as the swing has it, and the shape is what elements, stretched and sheared as
+/// they were at rest, make of that. So a large swing does not stretch the cable, as displacements
+/// along its straight shapes would.
 class SwungShape {
  public:
-  /// `rest`: nodes at even arc lengths. `held`: takes from a vector (world) the part along which
-  /// end b is held; there the last node stays where the swing's own displacement has it, and what
-  /// is missing is spread along the cable. The swing outlives this.
-  SwungShape(const std::vector<Pose>& rest, const Swing& swing, const Eigen::Matrix3d& held);
+  /// `rest`: nodes at even arc lengths of a cable of this length [m]. `held`: takes from a vector
+  /// (world) the part along which end b is held; there the last node stays where the swing's own
+  /// displacement has it, and what is missing is spread along the cable. The swing outlives this.
+  SwungShape(const std::vector<Pose>& rest, double length, const Swing& swing,
+             const Eigen::Matrix3d& held);
 
   std::vector<Pose> Nodes() const { return At(0); }
   /// [m/s] in the world, [rad/s] in the section.
@@ -28,6 +29,7 @@ class SwungShape {
   std::vector<Pose> At(double time) const;
 
   const std::vector<Pose>& rest_;
+  double h_;  // of an element [m]
   const Swing& swing_;
   Eigen::Matrix3d held_;
 };
