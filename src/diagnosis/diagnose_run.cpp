@@ -92,8 +92,11 @@ ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
     for (std::size_t e = 0; e < set.experiments.size(); ++e)
       WriteWhole((folder / "fit" / (set.experiments[e].name + ".csv")).string(),
                  FitCsv(set.experiments[e], diagnosis.records[e]));
-    if (diagnosis.verdict == Verdict::kNamed) {
-      WriteWhole((folder / kExtendedCable).string(), ExtendedCableText(set, diagnosis));
+    WriteWhole((folder / kBaselineCable).string(),
+               FoundCableText(set, diagnosis.baseline_cable, diagnosis.baseline));
+    if (diagnosis.has_extended) {
+      WriteWhole((folder / kExtendedCable).string(),
+                 FoundCableText(set, diagnosis.extended_set.cable, diagnosis.extended));
       WriteExtendedSet(diagnosis.extended_set, folder);
     }
     WriteWhole((folder / "verdict.json").string(), verdict);

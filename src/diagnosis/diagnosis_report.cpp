@@ -78,8 +78,9 @@ std::map<std::string, FoundParameter> DiagnosisWork::FoundIn(const FittedTrial& 
 
 Records DiagnosisWork::HeldOut(const FittedTrial& of) const {
   FitProblemOptions options = ProblemOptions();
-  options.stop = [this] { return Stopping(); };
+  options.stop = [this] { return Stopping() || Seconds() > options_.time_limit; };
   options.max_iterations = kHeldOutIterations;
+  if (of.IsFar()) options.held = of.OfSingleRecords();
   return ExactHeldOut({of.set, of.point, *of.problem}, options);
 }
 
@@ -250,7 +251,10 @@ Diagnosis DiagnosisWork::Report() {
   diagnosis_.baseline = FoundIn(baseline());
   if (judgement.verdict == Verdict::kNamed || judgement.verdict == Verdict::kAmbiguous)
     diagnosis_.causes = judgement.best == 0 ? std::vector<std::string>{"none"} : best.causes();
-  if (judgement.verdict == Verdict::kNamed) {
+  diagnosis_.baseline_cable = baseline().problem->unknowns().FilledKeys(baseline().point.values);
+  diagnosis_.has_extended = judgement.best != 0 && (judgement.verdict == Verdict::kNamed ||
+                                                    judgement.verdict == Verdict::kAmbiguous);
+  if (diagnosis_.has_extended) {
     diagnosis_.extended = FoundIn(best);
     diagnosis_.extended_set = best.problem->unknowns().FilledSet(best.point.values);
   }

@@ -33,6 +33,8 @@ constexpr int kRefined = 3;
 // Rounds of ever finer steps, as long as they move what is fitted.
 constexpr int kSharper = 4;
 constexpr double kMuchLeft = 36;
+// Times the noise.
+constexpr double kFar = 30;
 // A factor that the plain model has changed a stiffness by, from which a cause may not find back.
 constexpr double kRanAway = 3;
 const char* const kPlain = "plain";
@@ -88,6 +90,15 @@ int FittedTrial::parameters() const {
   int count = 0;
   for (const Trial& trial : trials) count += static_cast<int>(trial.FreePaths().size());
   return count;
+}
+
+bool FittedTrial::IsFar() const { return point.cost > kFar * kFar * std::max(1.0, point.samples); }
+
+std::vector<std::string> FittedTrial::OfSingleRecords() const {
+  std::vector<std::string> names;
+  for (const Unknown& u : point.unknowns)
+    if (u.experiment >= 0) names.push_back(u.name);
+  return names;
 }
 
 bool FittedTrial::IsFaint() const {
@@ -228,6 +239,8 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   options.aim = Aim();
   options.quick = true;
   options.progress = [this](const std::string&) { return !Stopping(); };
+  fitted->held = from.IsFar();
+  if (fitted->held) options.held = from.OfSingleRecords();
   Problems problems;
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
   if (!problems.empty()) return nullptr;
@@ -249,7 +262,7 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
 std::unique_ptr<FittedTrial> DiagnosisWork::FitOneOrFromTheSet(const std::vector<Trial>& trials,
                                                                const FittedTrial& from) {
   std::unique_ptr<FittedTrial> fitted = FitOne(trials, from);
-  if (!fitted || fitted->point.interrupted) return fitted;
+  if (!fitted || fitted->point.interrupted || from.IsFar()) return fitted;
   if (fitted->point.ok && AdequacyOf(fitted->point, noise_).adequate) return fitted;
   Also also;
   for (std::size_t i = 0; i < from.point.unknowns.size(); ++i) {
@@ -345,7 +358,8 @@ void DiagnosisWork::Continue(double part) {
   const double aim = Aim();
   for (auto& model : models_) {
     const bool is_far = aim > 0 && model->point.cost > kFarFromAim * aim;
-    if (!model->trials.empty() && !model->point.at_minimum && !is_far) open.push_back(model.get());
+    const bool ended = model->point.at_minimum && !(model->held && !model->IsFar());
+    if (!model->trials.empty() && !ended && !is_far) open.push_back(model.get());
   }
   std::sort(open.begin(), open.end(), [](const FittedTrial* a, const FittedTrial* b) {
     return a->point.cost < b->point.cost;
@@ -356,6 +370,8 @@ void DiagnosisWork::Continue(double part) {
     const SimulationCount before = model->problem->count();
     model->problem->SetMaxIterations(kMoreIterations);
     model->problem->SetAim(aim);
+    model->held = model->IsFar();
+    if (!model->held) model->problem->SetHeld({});
     FitPoint point = model->problem->FitFrom(model->point);
     Charge("candidates", model->problem->count() - before);
     if (point.ok && !point.interrupted) model->point = std::move(point);

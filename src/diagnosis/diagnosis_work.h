@@ -24,9 +24,14 @@ struct FittedTrial {
   std::unique_ptr<FitProblem> problem;
   FitPoint point;
   bool refined = false;  ///< simulated as finely as what it leaves asks
+  bool held = false;     ///< what concerns single records stays where the simpler model has it
 
   std::vector<std::string> causes() const;
   int parameters() const;
+  /// Whether so much is left that how each record began hardly counts.
+  bool IsFar() const;
+  /// Names of the unknowns that concern one record each.
+  std::vector<std::string> OfSingleRecords() const;
   /// Whether one of its causes is far smaller than such a fault can be.
   bool IsFaint() const;
 };
@@ -61,12 +66,14 @@ class DiagnosisWork {
   const FittedTrial& baseline() const { return *models_.front(); }
   const FittedTrial& model(int i) const { return *models_[static_cast<std::size_t>(i)]; }
   bool Stopping() const;
-  bool OutOfTime() const { return Seconds() > options_.time_limit; }
+  /// For fits; what follows them has the rest of the time.
+  bool OutOfTime() const { return Seconds() > kFits * options_.time_limit; }
   Difference DifferenceBetween(int worse, int better) const;
   const std::string& message() const { return diagnosis_.message; }
   Diagnosis Failed();
 
  private:
+  static constexpr double kFits = 0.85;
   using Clock = std::chrono::steady_clock;
   double Seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
   bool Tell(const std::string& what, double part);

@@ -85,14 +85,15 @@ json VerdictJson(const MeasurementSet& set, const Diagnosis& diagnosis) {
   AddUnits(diagnosis.baseline, &verdict["units"]);
   for (const Candidate& candidate : diagnosis.candidates)
     AddUnits(candidate.found, &verdict["units"]);
-  verdict["baseline"] = {{"parameters", ParametersJson(diagnosis.baseline)},
+  verdict["baseline"] = {{"cable", kBaselineCable},
+                         {"parameters", ParametersJson(diagnosis.baseline)},
                          {"undetermined", ReasonsJson(diagnosis.baseline)},
                          {"times_noise", diagnosis.baseline_times_noise},
                          {"log_likelihood", diagnosis.baseline_log_likelihood},
                          {"freedom", diagnosis.baseline_freedom},
                          {"rms_test", diagnosis.rms_baseline}};
   verdict["extended"] = json();
-  if (diagnosis.verdict == Verdict::kNamed) {
+  if (diagnosis.has_extended) {
     verdict["extended"] = {
         {"cable", kExtendedCable},
         {"parameters", ParametersJson(diagnosis.extended)},
@@ -128,11 +129,12 @@ json VerdictJson(const MeasurementSet& set, const Diagnosis& diagnosis) {
   return verdict;
 }
 
-std::string ExtendedCableText(const MeasurementSet& set, const Diagnosis& diagnosis) {
+std::string FoundCableText(const MeasurementSet& set, const CableKeys& cable,
+                           const std::map<std::string, FoundParameter>& all) {
   Estimation estimation;
-  estimation.cable = diagnosis.extended_set.cable;
+  estimation.cable = cable;
   estimation.cable.faults = {};
-  for (const auto& [name, found] : diagnosis.extended) {
+  for (const auto& [name, found] : all) {
     if (IsFault(name)) continue;
     ParameterEstimate one;
     one.unknown.name = name;

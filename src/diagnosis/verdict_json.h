@@ -8,14 +8,16 @@
 
 namespace cosserat_cable {
 
+inline constexpr const char* kBaselineCable = "baseline_cable.yaml";
 inline constexpr const char* kExtendedCable = "extended_cable.yaml";
 inline constexpr const char* kExtendedMeasurement = "extended_measurement.yaml";
 
 /// verdict.json.
 nlohmann::json VerdictJson(const MeasurementSet& set, const Diagnosis& diagnosis);
 
-/// extended_cable.yaml: a specimen with the plain parameters and the causes' as they were found.
-std::string ExtendedCableText(const MeasurementSet& set, const Diagnosis& diagnosis);
+/// A specimen's file with what was found: baseline_cable.yaml and extended_cable.yaml.
+std::string FoundCableText(const MeasurementSet& set, const CableKeys& cable,
+                           const std::map<std::string, FoundParameter>& found);
 
 /// fit/NAME.csv: the record's columns, and beside each what the models make of it (COLUMN.plain,
 /// COLUMN.extended).

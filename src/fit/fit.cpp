@@ -61,6 +61,10 @@ std::vector<bool> ConcernOne(const Unknowns& unknowns) {
   return which;
 }
 
+/// Whether derivatives serve longer than where they were found: on the way, or those of a fit
+/// before.
+bool KeepsDerivatives(const FitOptions& fit) { return fit.loose || !fit.known.records().empty(); }
+
 /// All records, by the unknowns' variables.
 class RecordProblem : public LeastSquaresProblem {
  public:
@@ -72,7 +76,7 @@ class RecordProblem : public LeastSquaresProblem {
         progress_(progress),
         samples_(samples),
         steps_(fit.steps),
-        keeps_(!fit.known.records().empty()),
+        keeps_(KeepsDerivatives(fit)),
         jacobian_(fit.known) {
     first_ = steps_.size() == 0;
     if (first_) steps_ = model.SmallSteps();
@@ -383,7 +387,7 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   options.small_gain = std::max(kSmallGain, by_sample * options.samples);
   options.aim = fit.aim;
   options.finish = fit.finish;
-  if (!fit.known.records().empty())
+  if (KeepsDerivatives(fit))
     options.renew =
         fit.quick ? LeastSquaresProblem::Renew::kNone : LeastSquaresProblem::Renew::kSome;
   const LeastSquaresResult found = Minimise(problem.VariablesOf(values), options, &problem);

@@ -19,6 +19,7 @@ constexpr double kPower = 0.01;
 const FitOptions kOnTheWay = [] {
   FitOptions options;
   options.loose = true;
+  options.finish = false;
   return options;
 }();
 // Where the search looks: around the start, within these factors.

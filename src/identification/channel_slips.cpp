@@ -20,6 +20,8 @@ constexpr double kFarAbove = 4.0;
 // Of what is left above the noise, a slip must explain this share, and leave little beside the
 // rest.
 constexpr double kExplains = 0.9;
+// What an offset leaves, in the noise's variance: with more, it stands for what the model lacks.
+constexpr double kFaithful = 25;
 // A form that leaves no more than so many times what a richer one leaves, and half the noise's
 // variance, is as good.
 constexpr double kAsGood = 2.0, kOfNoise = 0.5;
@@ -33,6 +35,8 @@ constexpr std::size_t kMostForms = 8;
 // No noise is taken to be less than this part of a channel's range where its level is unknown; and
 // a residual beyond this part is looked at then.
 constexpr double kUnknownLevel = 0.005, kUnknownMisfit = 0.05;
+// What a record's own fit may take [s], and in parts of the whole fit.
+constexpr double kLeastTime = 3, kPartOfFit = 0.1;
 // Records whose slips are looked for, the worst first: each takes seconds.
 constexpr std::size_t kMostRecords = 8;
 
@@ -465,7 +469,7 @@ std::vector<ChannelSlip> OffsetsBesideAStart(const MeasurementSet& set, std::siz
     const ChannelFit& is = fit.experiments.front().channels[c];
     const double left = was.times_noise * was.times_noise, now = is.times_noise * is.times_noise;
     if (channel.unknown_offset || !(left > kFarAbove) || !(now > 0) ||
-        now > (1 - kExplains) * (left - 1) + 1)
+        now > std::min((1 - kExplains) * (left - 1) + 1, kFaithful))
       continue;
     for (const ParameterEstimate& estimate : fit.parameters) {
       if (estimate.unknown.name != experiment.name + "/" + channel.column + ".offset") continue;
@@ -501,19 +505,22 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   if (!options.guesses.empty()) points.push_back(options.guesses);
   std::vector<ChannelSlip> slips;
   const auto begin = std::chrono::steady_clock::now();
-  const auto ended = [&] {
+  const auto time_left = [&] {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    return (options.stop && options.stop()) ||
-           (options.time_limit > 0 && fit.seconds + taken.count() > options.time_limit);
+    return options.time_limit > 0 ? options.time_limit - fit.seconds - taken.count()
+                                  : std::numeric_limits<double>::infinity();
   };
+  const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
+  EstimationOptions of_record = options;
   for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords) && !ended(); ++k) {
     const std::size_t e = suspects[k].second;
     if (options.progress &&
         !options.progress("looking for slips in " + set.experiments[e].name, 0.95))
       return slips;
+    of_record.time_limit = std::min(time_left(), std::max(kLeastTime, kPartOfFit * fit.seconds));
     const std::vector<ChannelSlip> found =
         set.experiments[e].start.kind == StartCondition::Kind::kUnknown
-            ? OffsetsBesideAStart(set, e, fit.experiments[e], options)
+            ? OffsetsBesideAStart(set, e, fit.experiments[e], of_record)
             : SlipSearch(set, static_cast<int>(e), fit.experiments[e], points).Find();
     slips.insert(slips.end(), found.begin(), found.end());
   }

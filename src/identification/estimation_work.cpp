@@ -100,6 +100,15 @@ bool EstimationWork::UpdateNoise() {
   return changed;
 }
 
+/// The last fit's derivatives, where they are of whole records.
+RecordJacobian EstimationWork::KnownOfWhole() const {
+  const auto& records = fit_.jacobian.records();
+  if (records.size() != experiments().size()) return {};
+  for (std::size_t e = 0; e < records.size(); ++e)
+    if (records[e].columns.rows() != experiments()[e].record.values.size()) return {};
+  return fit_.jacobian;
+}
+
 /// False: stopped, or there is no fit and `message` says why.
 bool EstimationWork::FitInRounds() {
   bool noise_changed = true;
@@ -115,6 +124,7 @@ bool EstimationWork::FitInRounds() {
     if (noise_changed || !Polish(model_, fit_.jacobian, noise_, &optimum_.values)) {
       FitOptions options;
       options.steps = fit_.steps;
+      options.known = KnownOfWhole();
       options.to_noise = !misfit_;
       const FitResult fit =
           Fit(model_, optimum_.values, model_.WholeHorizon(), noise_, options, progress);

@@ -58,6 +58,7 @@ class EstimationWork {
   Eigen::MatrixXd Counted(std::size_t experiment) const;
   bool ShownByNone(int unknown) const;
   bool UpdateNoise();
+  RecordJacobian KnownOfWhole() const;
   bool FitInRounds();
   bool FitToEnd();
   bool Stopped() const { return stopped_ || (options_.stop && options_.stop()); }

@@ -93,7 +93,9 @@ struct Diagnosis {
   std::optional<GainEstimate> gain;
   std::vector<Candidate> candidates;  ///< the best first
   std::string next_experiment;
-  MeasurementSet extended_set;  ///< with the named causes' numbers; where `named`
+  CableKeys baseline_cable;     ///< the recalibrated plain one
+  bool has_extended = false;    ///< where named, and for the likeliest of what is ambiguous
+  MeasurementSet extended_set;  ///< with its numbers
   std::vector<RecordView> records;
   std::vector<std::string> warnings;
   std::vector<DiagnosisStage> stages;

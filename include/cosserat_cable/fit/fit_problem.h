@@ -102,6 +102,8 @@ class FitProblem {
     options_.max_iterations = count;
     options_.quick = false;
   }
+  /// Unknowns that stay where a warm fit begins.
+  void SetHeld(std::vector<std::string> names) { options_.held = std::move(names); }
   /// The sum of squares that a warm fit is to reach, to be worth its end; 0: none.
   void SetAim(double cost) { options_.aim = cost; }
 
