@@ -17,6 +17,9 @@ constexpr double kMuchNoise = 4;
 constexpr double kBeginningPeriods = 2;
 // Squared norm of a derivative, over the unknown's scale, that shows something of it.
 constexpr double kShown = 1e-3;
+// The part of a parameter's value by which a fit may begin elsewhere, with the derivatives of
+// there.
+constexpr double kNear = 0.1;
 // Runs with finer steps, each followed by a fit.
 constexpr int kRounds = 2;
 
@@ -234,10 +237,11 @@ FitResult FitProblem::WarmFit(const FitPoint& start, const std::map<std::string,
   options.finish = finish;
   options.quick = options_.quick || !finish;
   // Derivatives are those of the start.
-  const bool there = std::none_of(also.begin(), also.end(), [&](const auto& one) {
-    return std::isfinite(start.ValueOf(one.first));
+  const bool near = std::all_of(also.begin(), also.end(), [&](const auto& one) {
+    const double there = start.ValueOf(one.first);
+    return !std::isfinite(there) || std::abs(one.second - there) < kNear * std::abs(there);
   });
-  if (there) options.known = KnownFrom(start);
+  if (near) options.known = KnownFrom(start);
   options.aim = 0.5 * options_.aim;
   const double samples = std::max(1.0, start.samples);
   options.to_noise = start.cost < kMuchNoise * samples;
