@@ -89,9 +89,11 @@ ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
   const std::string verdict = VerdictJson(set, diagnosis).dump(2) + "\n";
   try {
     for (const char* stale : {kExtendedCable, kExtendedMeasurement}) fs::remove(folder / stale);
-    for (std::size_t e = 0; e < set.experiments.size(); ++e)
-      WriteWhole((folder / "fit" / (set.experiments[e].name + ".csv")).string(),
-                 FitCsv(set.experiments[e], diagnosis.records[e]));
+    for (const Experiment& experiment : set.experiments)
+      for (const RecordView& view : diagnosis.records)
+        if (view.experiment == experiment.name)
+          WriteWhole((folder / "fit" / (experiment.name + ".csv")).string(),
+                     FitCsv(experiment, view));
     WriteWhole((folder / kBaselineCable).string(),
                FoundCableText(set, diagnosis.baseline_cable, diagnosis.baseline));
     if (diagnosis.has_extended) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "advice.h"
+#include "chosen_records.h"
 #include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/fit/information.h"
 #include "cosserat_cable/input/number_text.h"
@@ -81,7 +82,22 @@ Records DiagnosisWork::HeldOut(const FittedTrial& of) const {
   options.stop = [this] { return Stopping() || Seconds() > options_.time_limit; };
   options.max_iterations = kHeldOutIterations;
   if (of.IsFar()) options.held = of.OfSingleRecords();
-  return ExactHeldOut({of.set, of.point, *of.problem}, options);
+  if (set_.experiments.size() == whole_.experiments.size())
+    return ExactHeldOut({of.set, of.point, *of.problem}, options);
+  options.held.clear();
+  options.noise.clear();
+  return PredictOthers(WithTrials(whole_, of.trials), ChosenRecords(whole_), of.point, options);
+}
+
+/// The whole set with what was found in a part of it.
+MeasurementSet DiagnosisWork::Filled(const FittedTrial& of) const {
+  const MeasurementSet part = of.problem->unknowns().FilledSet(of.point.values);
+  MeasurementSet filled = whole_;
+  filled.cable = part.cable;
+  for (Experiment& experiment : filled.experiments)
+    for (const Experiment& fitted : part.experiments)
+      if (fitted.name == experiment.name) experiment = fitted;
+  return filled;
 }
 
 void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
@@ -256,7 +272,7 @@ Diagnosis DiagnosisWork::Report() {
                                                     judgement.verdict == Verdict::kAmbiguous);
   if (diagnosis_.has_extended) {
     diagnosis_.extended = FoundIn(best);
-    diagnosis_.extended_set = best.problem->unknowns().FilledSet(best.point.values);
+    diagnosis_.extended_set = Filled(best);
   }
   for (const int r : judgement.rivals)
     for (const std::string& name : r == 0 ? std::vector<std::string>{"none"} : model(r).causes())

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chosen_records.h"
 #include "cosserat_cable/input/number_text.h"
 #include "held_out.h"
 #include "trial_obstacles.h"
@@ -108,7 +109,15 @@ bool FittedTrial::IsFaint() const {
 }
 
 DiagnosisWork::DiagnosisWork(const MeasurementSet& set, const DiagnosisOptions& options)
-    : set_(set), options_(options), memory_(options.memory, set), noise_(NoiseOf(set)) {
+    : whole_(set),
+      set_(OfRecords(set, ChosenRecords(set))),
+      options_(options),
+      memory_(options.memory, set),
+      noise_(NoiseOf(set_)) {
+  if (set_.experiments.size() < set.experiments.size())
+    diagnosis_.warnings.push_back("the set is large: " + std::to_string(set_.experiments.size()) +
+                                  " of its " + std::to_string(set.experiments.size()) +
+                                  " records were fitted, the others tell what is gained");
   if (memory_.begun_with() > 0)
     diagnosis_.warnings.push_back("an earlier diagnosis of this set was interrupted: " +
                                   std::to_string(memory_.begun_with()) +

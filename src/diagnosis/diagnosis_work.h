@@ -92,13 +92,15 @@ class DiagnosisWork {
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
   void FindCorrelations();
   Records HeldOut(const FittedTrial& of) const;
+  MeasurementSet Filled(const FittedTrial& of) const;
   void ReportCandidates(const Judgement& judgement);
   void ReportGain(const Judgement& judgement);
   void ReportRecords(const Judgement& judgement);
   void Advise(const Judgement& judgement);
   void Say(const Judgement& judgement);
 
-  const MeasurementSet& set_;
+  const MeasurementSet& whole_;
+  const MeasurementSet set_;  // what is fitted of it
   const DiagnosisOptions& options_;
   FitMemory memory_;
   SetNoise noise_;

@@ -148,6 +148,20 @@ Records ExactHeldOut(const FittedModel& model, const FitProblemOptions& options)
   return predicted;
 }
 
+Records PredictOthers(const MeasurementSet& set, const std::vector<int>& fitted,
+                      const FitPoint& point, const FitProblemOptions& options) {
+  Problems problems;
+  const FitProblem problem(set, options, &problems);
+  Records predicted;
+  for (int e = 0; e < static_cast<int>(set.experiments.size()); ++e) {
+    if (std::count(fitted.begin(), fitted.end(), e) > 0) continue;
+    predicted.emplace_back();
+    if (problems.empty() && !(options.stop && options.stop()))
+      predicted.back() = problem.Predict(point, e);
+  }
+  return predicted;
+}
+
 std::optional<GainEstimate> GainOf(const Records& baseline, const Records& extended) {
   std::vector<Block> blocks;
   Block all;

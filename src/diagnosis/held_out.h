@@ -20,6 +20,11 @@ struct FittedModel {
 /// its record by a fit of the first. Empty matrices where that cannot be fitted or simulated.
 Records ExactHeldOut(const FittedModel& model, const FitProblemOptions& options);
 
+/// Residuals of the experiments of a set that a fit of the `fitted` ones has not seen, each with
+/// its start found from its beginning.
+Records PredictOthers(const MeasurementSet& set, const std::vector<int>& fitted,
+                      const FitPoint& point, const FitProblemOptions& options);
+
 /// (MSE_baseline - MSE_extended)/(MSE_baseline - noise^2), all in the noise's variance, with a 95 %
 /// interval by bootstrap over blocks of the records. Nothing where no record was predicted by both,
 /// or the baseline leaves no more than noise.
