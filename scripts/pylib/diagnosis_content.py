@@ -70,7 +70,7 @@ def joined(words, last='and'):
 def extended_label(data):
     """What the simulation beside the plain one is called."""
     if data.get('extended'):
-        return 'extended: ' + ' + '.join(data.get('causes') or [])
+        return 'extended: ' + ' + '.join(data['extended'].get('causes') or data.get('causes') or [])
     best = next((c['cause'] for c in data.get('candidates', []) if c.get('fitted')), '')
     return f'best candidate: {best}'
 

@@ -271,6 +271,7 @@ Diagnosis DiagnosisWork::Report() {
   diagnosis_.has_extended = judgement.best != 0 && (judgement.verdict == Verdict::kNamed ||
                                                     judgement.verdict == Verdict::kAmbiguous);
   if (diagnosis_.has_extended) {
+    diagnosis_.extended_causes = best.causes();
     diagnosis_.extended = FoundIn(best);
     diagnosis_.extended_set = Filled(best);
   }

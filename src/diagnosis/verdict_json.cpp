@@ -96,6 +96,7 @@ json VerdictJson(const MeasurementSet& set, const Diagnosis& diagnosis) {
   if (diagnosis.has_extended) {
     verdict["extended"] = {
         {"cable", kExtendedCable},
+        {"causes", diagnosis.extended_causes},
         {"parameters", ParametersJson(diagnosis.extended)},
         {"undetermined", ReasonsJson(diagnosis.extended)},
         {"times_noise", diagnosis.extended_times_noise},
@@ -179,6 +180,9 @@ std::string VerdictTable(const Diagnosis& diagnosis) {
         << FormatRounded(100 * diagnosis.gain->value, 3) << " % is gone (95 % from "
         << FormatRounded(100 * diagnosis.gain->low, 3) << " to "
         << FormatRounded(100 * diagnosis.gain->high, 3) << " %).\n";
+  if (diagnosis.has_extended)
+    out << "With " << Joined(diagnosis.extended_causes)
+        << (diagnosis.verdict == Verdict::kAmbiguous ? ", which fits best:\n" : ":\n");
   for (const auto& [name, found] : diagnosis.extended) {
     out << "  " << name << ": ";
     if (found.reason.empty())

@@ -66,8 +66,10 @@ Pose ClampPath::AtStep(int step) const {
 std::shared_ptr<ClampPath> SharedPaths::With(const std::optional<ClampMotionFault>& fault) {
   for (const Known& one : known_)
     if (MoveAlike(one.fault, fault)) return one.path;
-  known_.push_back({fault, std::make_shared<ClampPath>(end_, fault)});
-  return known_.back().path;
+  Known& one = known_.emplace_back();
+  one.fault = fault;
+  one.path = std::make_shared<ClampPath>(end_, fault);
+  return one.path;
 }
 
 }  // namespace cosserat_cable

@@ -93,9 +93,10 @@ struct Diagnosis {
   std::optional<GainEstimate> gain;
   std::vector<Candidate> candidates;  ///< the best first
   std::string next_experiment;
-  CableKeys baseline_cable;     ///< the recalibrated plain one
-  bool has_extended = false;    ///< where named, and for the likeliest of what is ambiguous
-  MeasurementSet extended_set;  ///< with its numbers
+  CableKeys baseline_cable;   ///< the recalibrated plain one
+  bool has_extended = false;  ///< where named, and for the likeliest of what is ambiguous
+  std::vector<std::string> extended_causes;
+  MeasurementSet extended_set;  ///< with their numbers
   std::vector<RecordView> records;
   std::vector<std::string> warnings;
   std::vector<DiagnosisStage> stages;
