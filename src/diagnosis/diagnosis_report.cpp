@@ -103,6 +103,9 @@ MeasurementSet DiagnosisWork::Filled(const FittedTrial& of) const {
 void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
   const Adequacy plain = AdequacyOf(baseline().point, noise_);
   const Records best_heldout = LinearisedHeldOut(model(judgement.best).point);
+  // Of a large set, the plain model has predicted records that candidates have not.
+  const bool all_fitted = set_.experiments.size() == whole_.experiments.size();
+  const Records plain_heldout = all_fitted ? plain_heldout_ : LinearisedHeldOut(baseline().point);
   for (int i = 1; i < static_cast<int>(models_.size()); ++i) {
     const FittedTrial& of = model(i);
     Candidate candidate;
@@ -125,7 +128,7 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
     const Difference heldout = DifferenceOf(own, best_heldout, correlations_);
     candidate.heldout = heldout.value;
     candidate.heldout_se = heldout.se;
-    if (const auto gain = GainOf(plain_heldout_, EndsOf(own, plain_heldout_)))
+    if (const auto gain = GainOf(plain_heldout, EndsOf(own, plain_heldout)))
       candidate.gain = gain->value;
     candidate.rejected = judgement.rejected[static_cast<std::size_t>(i)];
     candidate.found = FoundIn(of);

@@ -165,8 +165,9 @@ bool DiagnosisWork::FitBaseline(Problems* problems) {
   if (const FitMemory::Fit* known = memory_.Find(kPlain)) {
     const FitPoint there = plain->problem->At(plain->problem->StartFrom({}, known->values));
     if (there.ok) plain->problem->Refine(there);
-    plain->point = there.ok ? plain->problem->FitFrom(there) : there;
-  } else {
+    if (there.ok) plain->point = plain->problem->FitFrom(there);
+  }
+  if (!plain->point.ok && !plain->point.interrupted) {
     plain->point = plain->problem->FitFromAfar();
     if (plain->point.ok && !plain->point.interrupted) memory_.Add(kPlain, plain->point);
   }

@@ -27,6 +27,10 @@ constexpr double kFinest = 1e-4;                             // [s]
 constexpr double kTooFar = 0.02;
 // Of the noise, likewise, where that is more: it hides what a correction is wrong by.
 constexpr double kBesideNoise = 0.5;
+// Steps are not halved further where that leaves more than this part of what they do, since it
+// converges to nothing, nor elements beyond these.
+constexpr double kConverging = 0.7;
+constexpr int kMostElements = 160;
 constexpr double kWhole = 1e300;  // [s]
 // Of an unknown start: fewer do not tell it from the cable's parameters.
 constexpr double kPeriods = 2;
@@ -513,10 +517,12 @@ double RecordModel::Refine(const Eigen::VectorXd& values, const NoiseLevels& noi
       if (!effect) return;
       options_[e].dt = options.dt;
       options_[e].elements = options.elements;
+      const double before = largest[e];
       largest[e] = RelativeDifference(experiments[e], specimen.cable.length, effect->correction,
                                       experiments[e].record.values);
-      const bool done =
-          options.dt < kFinest || !IsTooLarge(experiments[e], effect->correction, noise[e]);
+      const bool in_vain = before > 0 && largest[e] > kConverging * before;
+      const bool done = in_vain || options.dt < kFinest || options.elements > kMostElements / 2 ||
+                        !IsTooLarge(experiments[e], effect->correction, noise[e]);
       correction_[e] = std::move(effect->correction);
       error_[e] = std::move(effect->error);
       if (done) break;
