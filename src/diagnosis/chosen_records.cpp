@@ -8,34 +8,32 @@ namespace {
 
 // Work in samples that are simulated for one linearisation: a set with more is large, and of a
 // large one so much is done, with so many records at least.
-constexpr double kLarge = 48e3, kEnough = 24e3;
+constexpr double kLarge = 64e3, kEnough = 24e3;
 constexpr int kFewest = 3;
-// Simulations of a record for one linearisation; with an unknown start there are as many more.
-constexpr double kCable = 5, kStart = 12;
+// Simulations of a record with an unknown start for one linearisation.
+constexpr double kSimulations = 17;
 
-double WorkOf(const Experiment& experiment) {
-  if (experiment.quasi_static()) return 0;
-  const bool unknown = experiment.start.kind == StartCondition::Kind::kUnknown;
-  return static_cast<double>(experiment.record.t.size()) * (kCable + (unknown ? kStart : 0.0));
+bool IsDear(const Experiment& experiment) {
+  return experiment.start.kind == StartCondition::Kind::kUnknown && !experiment.quasi_static();
 }
 
 }  // namespace
 
 std::vector<int> ChosenRecords(const MeasurementSet& set) {
-  std::vector<int> moving, chosen;
+  std::vector<int> dear, chosen;
   double work = 0;
   for (int e = 0; e < static_cast<int>(set.experiments.size()); ++e) {
     const Experiment& experiment = set.experiments[static_cast<std::size_t>(e)];
-    (experiment.quasi_static() ? chosen : moving).push_back(e);
-    work += WorkOf(experiment);
+    (IsDear(experiment) ? dear : chosen).push_back(e);
+    if (IsDear(experiment)) work += kSimulations * static_cast<double>(experiment.record.t.size());
   }
-  const auto all = static_cast<int>(moving.size());
+  const auto all = static_cast<int>(dear.size());
   int count = all;
   if (work > kLarge)
     count = std::clamp(static_cast<int>(std::lround(all * kEnough / work)), std::min(kFewest, all),
                        all);
   for (int k = 0; k < count; ++k)
-    chosen.push_back(moving[static_cast<std::size_t>(
+    chosen.push_back(dear[static_cast<std::size_t>(
         count > 1 ? std::lround(static_cast<double>(k) * (all - 1) / (count - 1)) : 0)]);
   std::sort(chosen.begin(), chosen.end());
   return chosen;

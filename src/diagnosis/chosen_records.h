@@ -7,8 +7,8 @@
 
 namespace cosserat_cable {
 
-/// All experiments; of a set whose candidates would take minutes each, the quasi-static ones and
-/// some of the others, spread evenly over the set.
+/// All experiments; of a set with so many unknown starts that candidates would take minutes each,
+/// some of those, spread evenly over the set.
 std::vector<int> ChosenRecords(const MeasurementSet& set);
 
 /// The set with these experiments only.

@@ -11,7 +11,8 @@ namespace {
 const char* const kVehicle =
     "format: 1\n"
     "types:\n"
-    "  hose: {length: 0.3, diameter: 0.008, mass_per_length: 0.1, EI: 0.03, GJ: 0.02, eta_EI: 1e-4}\n"
+    "  hose: {length: 0.3, diameter: 0.008, mass_per_length: 0.1, EI: 0.03, GJ: 0.02, eta_EI: "
+    "1e-4}\n"
     "cables:\n"
     "  - name: left\n"
     "    type: hose\n"

@@ -23,6 +23,11 @@ TEST(ChosenRecordsTest, AreAllOfAnOrdinarySet) {
   EXPECT_EQ(ChosenRecords(SetOf(1, 20000)), std::vector<int>{0});
   EXPECT_EQ(ChosenRecords(SetOf(4, 600)), (std::vector<int>{0, 1, 2, 3}));
   EXPECT_EQ(ChosenRecords(SetOf(3, 20000)), (std::vector<int>{0, 1, 2}));
+  // Known starts cost little.
+  MeasurementSet known = SetOf(6, 5000);
+  for (Experiment& experiment : known.experiments)
+    experiment.start.kind = StartCondition::Kind::kHeld;
+  EXPECT_EQ(ChosenRecords(known).size(), 6u);
 }
 
 TEST(ChosenRecordsTest, AreSpreadOverALargeSetWithItsQuasiStaticOnes) {

@@ -61,8 +61,9 @@ struct Cause {
   /// The same, to be begun with where the simpler cause of `contains` has been fitted: thresholds
   /// and ratios that it has beside that one.
   std::vector<Hypothesis> from_simpler;
-  /// Factors and angles, from their neutral values, that no such fault falls below: a smaller one that shows
-  /// stands for something else. A tilt of a micro-radian about a far origin is a displacement.
+  /// Factors and angles, from their neutral values, that no such fault falls below: a smaller one
+  /// that shows stands for something else. A tilt of a micro-radian about a far origin is a
+  /// displacement.
   double least = 0;
   /// Simpler causes that it turns into where some of its numbers vanish or grow without bound.
   std::vector<std::string> contains;
