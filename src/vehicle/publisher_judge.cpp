@@ -51,10 +51,10 @@ void PublisherJudge::Add(int publisher, std::int64_t stamp, const Pose& X_PC) {
   same->last = {stamp, X_PC};
   LookForTwoCourses(&*same);
   if (publishers_.size() == 1) return;
-  for (const Publisher& other : publishers_) {
+  for (Publisher& other : publishers_) {
     if (other.number == publisher) continue;
-    Compare(other, *same);
-    Compare(*same, other);
+    Compare(other, &*same);
+    Compare(*same, &other);
   }
 }
 
@@ -97,12 +97,12 @@ void PublisherJudge::LookForTwoCourses(Publisher* publisher) {
 }
 
 // The last sample of `slow` with the motion of `fast` at that time.
-void PublisherJudge::Compare(const Publisher& fast, const Publisher& slow) {
+void PublisherJudge::Compare(const Publisher& fast, Publisher* slow) {
   const std::int64_t interval = fast.last.stamp - fast.before.stamp;
-  const std::int64_t longer = slow.last.stamp - slow.before.stamp;
-  const bool known = fast.before.stamp > 0 && slow.before.stamp > 0 && interval <= kTogether &&
+  const std::int64_t longer = slow->last.stamp - slow->before.stamp;
+  const bool known = fast.before.stamp > 0 && slow->before.stamp > 0 && interval <= kTogether &&
                      static_cast<double>(interval) <= kFaster * static_cast<double>(longer);
-  const Sample& sample = slow.last;
+  const Sample& sample = slow->last;
   if (!known || sample.stamp < fast.before.stamp || sample.stamp > fast.last.stamp) return;
   const double part =
       static_cast<double>(sample.stamp - fast.before.stamp) / static_cast<double>(interval);
@@ -119,10 +119,12 @@ void PublisherJudge::Compare(const Publisher& fast, const Publisher& slow) {
     conflict_.worst = sample.stamp;
     conflict_.translation = translation;
     conflict_.rotation = rotation;
-    conflict_.one = std::min(fast.number, slow.number);
-    conflict_.other = std::max(fast.number, slow.number);
+    conflict_.one = std::min(fast.number, slow->number);
+    conflict_.other = std::max(fast.number, slow->number);
   }
-  ++conflict_.count;
+  // Several publishers may be compared with one sample.
+  if (slow->differed != sample.stamp) ++conflict_.count;
+  slow->differed = sample.stamp;
 }
 
 }  // namespace cosserat_cable

@@ -38,12 +38,13 @@ class PublisherJudge {
   struct Publisher {
     int number = 0;
     Sample before, last;
+    std::int64_t differed = 0;     // stamp of the last sample that was told to differ
     std::array<Sample, 5> recent;  // the last ones, at `count` modulo their number
     std::uint64_t count = 0;
     std::uint64_t to_and_fro = 0;  // how many in a row
   };
 
-  void Compare(const Publisher& fast, const Publisher& slow);
+  void Compare(const Publisher& fast, Publisher* slow);
   void LookForTwoCourses(Publisher* publisher);
 
   std::vector<Publisher> publishers_;
