@@ -12,8 +12,9 @@ constexpr int kOrder = 6;  // of the differences
 // Fewer differences than this are too few to tell jumps from noise.
 constexpr int kFewestDifferences = 30;
 // From one distance to twice that, correlated noise shows sqrt(2) times as much at most
-// (exponential correlation), a resolved signal 64 times; above this it is the signal.
-constexpr double kMostOfColour = 1.5;
+// (exponential correlation), and by chance more; a resolved signal 64 times. Where it grows by less
+// than this, the signal is sqrt(3)/64 of what was seen before at most.
+constexpr double kMostOfColour = 2;
 // Standard deviations by which noise must be larger at a distance to count as correlated.
 constexpr double kBeyondChanceOfColour = 2.0;
 // Degrees of freedom of sixth differences of white noise, by sample: 3.2 of them are worth one for
@@ -90,7 +91,8 @@ NoiseLevel OfLongRecord(const std::vector<double>& t, const std::vector<Eigen::V
     return least;
   };
   NoiseLevel result;
-  Level here = at(1);
+  const Level neighbours = at(1);
+  Level here = neighbours;
   if (here.count == 0) return result;
   result.freedom = kFreedomOfDifferences * here.count;
   result.sd = here.sd;
@@ -104,6 +106,10 @@ NoiseLevel OfLongRecord(const std::vector<double>& t, const std::vector<Eigen::V
     if (here.sd > by_chance * result.sd) result.sd = here.sd;
     here = next;
   }
+  // Neighbours show q = (1 - rho)/(1 + rho) of the variance of noise that keeps rho from sample to
+  // sample, and the mean of its squares has (1 - rho^2)/(1 + rho^2) of white noise's freedom.
+  const double q = std::pow(neighbours.sd / result.sd, 2);
+  if (q < 1) result.freedom *= 2 * q / (1 + q * q);
   return result;
 }
 
