@@ -204,6 +204,12 @@ void FillUncertain(const CableKeys& keys, CableModel* model, Problems* problems)
     if (known && known->neutral && !HasEntry(*model, key.name) &&
         !MakeExtensionNumbers(key.name, &made).empty())
       continue;
+    if (known && !HasEntry(*model, key.name)) {
+      problems->Add(key.mark, "got '" + key.name +
+                                  "' of an extension that the cable does not have, expected it "
+                                  "under `extensions`: its numbers are where the search begins");
+      continue;
+    }
     const std::string nearest = NearestWord(key.name, numbers);
     problems->Add(key.mark, "got '" + key.name + "', expected a number of the cable's extensions" +
                                 (nearest.empty() ? "" : ": did you mean '" + nearest + "'?"));

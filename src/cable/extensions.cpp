@@ -7,6 +7,7 @@
 
 #include "cosserat_cable/cable/extension_law.h"
 #include "cosserat_cable/input/number_text.h"
+#include "parameter_spec.h"
 #include "read_pair.h"
 
 namespace cosserat_cable {
@@ -167,6 +168,11 @@ CableKey<std::vector<ExtensionKey>> ReadExtensions(const YamlValue& value) {
     const YamlValue entry = map.Optional(law.name);
     if (entry.given()) keys.push_back(ReadExtension(law, entry));
   }
+  for (const char* fault : kFaultNames)
+    map.Refuse(fault, std::string("got a fault of a record among the cable's extensions, expected "
+                                  "it in a measurement set (measurement.yaml): `faults: {") +
+                          fault + ": ...}` beside its `cable`, or in one experiment");
+  map.Refuse("faults", kFaultsOfACable);
   return {keys, value.mark()};
 }
 

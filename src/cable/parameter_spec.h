@@ -24,6 +24,9 @@ inline constexpr const char* kFaultsOfACable =
     "got faults of a record, expected them in a measurement set (measurement.yaml): beside its "
     "`cable`, or of one experiment";
 
+/// Entries of `faults`.
+inline constexpr const char* kFaultNames[] = {"clock", "sensor", "base_motion"};
+
 /// What the paths of faults begin with: "faults.".
 const std::string& FaultPrefix();
 std::optional<Parameter> FindFaultParameter(const std::string& path);

@@ -40,6 +40,24 @@ TEST(OutsideKeys, ReportAWrongObstacle) {
             "f:10: cable.extensions.contact: got a plane and a peg, expected one of them\n");
 }
 
+TEST(OutsideKeys, ToldWhereFaultsOfARecordBelong) {
+  EXPECT_EQ(SaidWith("  extensions:\n"
+                     "    clock: {delay: 0.1}\n"
+                     "    faults: {sensor: []}\n"),
+            "f:10: cable.extensions.clock: got a fault of a record among the cable's extensions, "
+            "expected it in a measurement set (measurement.yaml): `faults: {clock: ...}` beside "
+            "its `cable`, or in one experiment\n"
+            "f:11: cable.extensions.faults: got faults of a record, expected them in a measurement "
+            "set (measurement.yaml): beside its `cable`, or of one experiment\n");
+}
+
+TEST(OutsideKeys, ToldThatAnUncertainNumberHasNoExtension) {
+  EXPECT_EQ(SaidWith("  uncertain: [extensions.clamp_compliance.b.bending]\n"),
+            "f:9: cable.uncertain[0]: got 'extensions.clamp_compliance.b.bending' of an extension "
+            "that the cable does not have, expected it under `extensions`: its numbers are where "
+            "the search begins\n");
+}
+
 TEST(OutsideKeys, LetAClampTurnThatHasADashpot) {
   EXPECT_EQ(SaidWith("  extensions:\n"
                      "    clamp_damping: {a: {bending: 1e-4}, b: {bending: 1e-4}}\n"
