@@ -1,6 +1,7 @@
 // Fits from nowhere near a minimum.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "cosserat_cable/cable/parameters.h"
@@ -25,6 +26,13 @@ const FitOptions kOnTheWay = [] {
 // Where the search looks: around the start, within these factors.
 constexpr double kStiffnessSpread = 1.6, kWideSpread = 6.0;
 constexpr int kPoints = 24, kBest = 2;
+// A further fit begins at the best point that leaves less than this part of what the curvature at
+// the best fit foretells of it: another valley may be there.
+constexpr double kOfForetold = 0.5;
+// On the first part of the records, one that leaves more than so many times what the best leaves is
+// no rival. Two fits are in one valley where the curvature at one foretells a difference of less
+// than this part of what is left, or than chance makes.
+constexpr double kRival = 4, kSameCost = 0.05, kChance = 9;
 // A derivative whose records, over the unknown's whole size, stay below this part of the noise's
 // sum of squares is none.
 constexpr double kUnseen = 1e-3;
@@ -73,6 +81,14 @@ std::vector<Eigen::VectorXd> PointsAround(const Unknowns& unknowns) {
     points.push_back(values);
   }
   return points;
+}
+
+/// Half a sum of squares that a fit's curvature foretells at other values.
+double Foretold(const Unknowns& unknowns, const FitResult& at, const Eigen::VectorXd& values) {
+  if (at.jacobian.unknowns() != unknowns.size()) return std::numeric_limits<double>::infinity();
+  Eigen::VectorXd apart = values - at.values;
+  for (int i = 0; i < unknowns.size(); ++i) apart[i] /= unknowns.all()[i].scale;
+  return at.cost + 0.5 * apart.dot(at.jacobian.Gram() * apart);
 }
 
 /// The cable's parameters that explain little of what is left over, however far they are moved:
@@ -137,8 +153,13 @@ FitResult FitLonger(RecordModel* model, FitResult best, bool comparable, const N
 
 }  // namespace
 
+bool InOneValley(const Unknowns& unknowns, const FitResult& best, const FitResult& other) {
+  return 2 * (Foretold(unknowns, best, other.values) - best.cost) <
+         std::max(kChance, kSameCost * 2 * best.cost);
+}
+
 FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
-                      const NoiseLevels& noise, const FitProgress& progress) {
+                      const NoiseLevels& noise, const FitProgress& progress, FitResult* rival) {
   std::vector<Eigen::VectorXd> points = more;
   points.push_back(model->unknowns().StartValues());
   // Where a start is unknown, all points look alike before it is fitted.
@@ -173,23 +194,47 @@ FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& mo
   if (ranking.empty()) return failed;
   std::sort(ranking.begin(), ranking.end());
   std::vector<FitResult> fits;
+  const auto by_cost = [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; };
   for (std::size_t k = 0; k < std::min<std::size_t>(kBest, ranking.size()); ++k) {
     FitResult fit = FitFirst(*model, points[ranking[k].second], first, noise, progress);
     if (fit.interrupted) return fit;
     if (fit.ok) fits.push_back(std::move(fit));
   }
-  std::sort(fits.begin(), fits.end(),
-            [](const FitResult& a, const FitResult& b) { return a.cost < b.cost; });
+  std::sort(fits.begin(), fits.end(), by_cost);
+  if (rival && !fits.empty()) {
+    const auto other = std::find_if(ranking.begin(), ranking.end(), [&](const auto& point) {
+      // Of a ranking, sums of squares.
+      return 0.5 * point.first <
+             kOfForetold * Foretold(model->unknowns(), fits.front(), points[point.second]);
+    });
+    if (other != ranking.end()) {
+      FitResult fit = FitFirst(*model, points[other->second], first, noise, progress);
+      if (fit.interrupted) return fit;
+      if (fit.ok) fits.push_back(std::move(fit));
+      std::sort(fits.begin(), fits.end(), by_cost);
+    }
+  }
   // What the shorter part leads to may be no cable that the longer ones can be simulated with: then
   // the next best is tried, and at last what the set itself says.
   FitResult own;
   own.ok = true;
   own.values = model->unknowns().StartValues();
-  fits.push_back(own);
-  for (const FitResult& start : fits) {
-    FitResult found = FitLonger(model, start, comparable, noise, progress);
-    if (found.ok || found.interrupted) return found;
-    failed = std::move(found);
+  for (std::size_t k = 0; k <= fits.size(); ++k) {
+    FitResult found =
+        FitLonger(model, k < fits.size() ? fits[k] : own, comparable, noise, progress);
+    if (found.interrupted) return found;
+    if (!found.ok) {
+      failed = std::move(found);
+      continue;
+    }
+    for (std::size_t other = k + 1; rival && other < fits.size(); ++other) {
+      if (fits[other].cost > kRival * fits[k].cost) break;
+      if (InOneValley(model->unknowns(), fits[k], fits[other])) continue;
+      *rival = FitLonger(model, fits[other], comparable, noise, progress);
+      if (rival->ok && !rival->interrupted && rival->cost < found.cost) std::swap(*rival, found);
+      break;
+    }
+    return found;
   }
   return failed;
 }

@@ -13,6 +13,8 @@ namespace {
 constexpr double kNormal95 = 1.959964;
 // Half of a sum of squares: a fit that is worse by no more is as good.
 constexpr double kAsWell = 2;
+// The same of another minimum: more than chance makes of four parameters (99 %), or this part.
+constexpr double kChanceOfMinimum = 13.3 / 2, kPartOfCost = 0.05;
 
 }  // namespace
 
@@ -90,6 +92,41 @@ void EstimationWork::ReportChannels() {
   }
 }
 
+/// The search's second valley, where it fits as well as the first one.
+void EstimationWork::ReportOtherMinimum() {
+  if (!rival_.ok) return;
+  FitOptions options;
+  options.to_noise = !misfit_;
+  const FitResult other =
+      Fit(model_, rival_.values, model_.WholeHorizon(), noise_, options,
+          [&](const std::string& what) { return Tell("the other minimum, " + what, 0.9); });
+  Charge("other minimum");
+  if (!other.ok || other.interrupted) return;
+  FitResult best;
+  best.values = optimum_.values;
+  best.jacobian = optimum_.jacobian;
+  best.cost = 0.5 * WeightedResiduals(model_, optimum_.values, simulated_, noise_).squaredNorm();
+  double correlation = 1;
+  for (const auto& record : colours_)
+    for (const NoiseColour& colour : record)
+      correlation = std::max(correlation, colour.correlation_samples);
+  const double worse = other.cost - best.cost;
+  if (InOneValley(unknowns_, best, other) ||
+      worse > std::max(kChanceOfMinimum * correlation, kPartOfCost * best.cost))
+    return;
+  std::string values;
+  for (int i = 0; i < unknowns_.size(); ++i) {
+    const Unknown& u = unknowns_.all()[i];
+    if (u.kind != Unknown::Kind::kCable) continue;
+    values += (values.empty() ? "" : ", ") + u.name + " " + FormatRounded(other.values[i]);
+  }
+  estimation_.warnings.push_back(
+      "the minimum is one of several: the records fit as well with " + values +
+      " (sum of squares " + FormatRounded(100 * worse / best.cost, 2) +
+      " % larger). Begin nearer to the cable, or record it another way: faster, longer, or at "
+      "another length");
+}
+
 void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
   estimation_.scatter = scatter;
   const Information information = InformationOf(model_, optimum_.jacobian, colours_);
@@ -150,6 +187,7 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
         " records that show it by more than their noise: standard deviation " +
         FormatRounded(one.sd) + " " + UnitOf(one.name) + "; the intervals count it");
   ReportChannels();
+  if (!hurried_) ReportOtherMinimum();
   estimation_.converged = end_.empty();
   if (!end_.empty())
     estimation_.warnings.push_back("these are the best values so far, and no minimum: " + end_);

@@ -254,7 +254,7 @@ bool EstimationWork::FitFromStart() {
   }
   LeaveOutDamaged();
   const FitProgress early = [&](const std::string& what) { return Tell(what, 0.1); };
-  const FitResult start = FitFromAfar(&model_, guesses, noise_, early);
+  const FitResult start = FitFromAfar(&model_, guesses, noise_, early, &rival_);
   Charge("search");
   if (!start.ok) {
     estimation_.interrupted = model_.Stopping();
@@ -285,11 +285,17 @@ void EstimationWork::LoosenNoise() {
 
 bool EstimationWork::FitFrom(const EstimationWork& before) {
   noise_ = before.noise_;
-  optimum_.values = unknowns_.StartValues();
-  for (int i = 0; i < unknowns_.size(); ++i) {
-    const int there = before.unknowns_.Find(unknowns_.all()[i].name);
-    if (there >= 0) optimum_.values[i] = before.optimum_.values[there];
-  }
+  const auto as_here = [&](const Eigen::VectorXd& values) {
+    Eigen::VectorXd here = unknowns_.StartValues();
+    for (int i = 0; i < unknowns_.size(); ++i) {
+      const int there = before.unknowns_.Find(unknowns_.all()[i].name);
+      if (there >= 0) here[i] = values[there];
+    }
+    return here;
+  };
+  optimum_.values = as_here(before.optimum_.values);
+  rival_ = before.rival_;
+  if (rival_.ok) rival_.values = as_here(before.rival_.values);
   for (std::size_t e = 0; e < experiments().size(); ++e)
     if (before.model_.IsLeftOut(static_cast<int>(e))) model_.LeaveOut(static_cast<int>(e));
   estimation_.warnings = before.estimation_.warnings;

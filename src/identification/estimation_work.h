@@ -77,6 +77,7 @@ class EstimationWork {
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
   void ReportChannels();
+  void ReportOtherMinimum();
   void KeepDefaults(const Determination& determination);
 
   const Unknowns& unknowns_;
@@ -86,6 +87,7 @@ class EstimationWork {
   Optimum optimum_;
   Eigen::VectorXd steps_;  // of the differences, in the unknowns' scales
   FitResult fit_;          // the last one of whole records
+  FitResult rival_;        // the search's second valley; not ok where there was none
   std::atomic<bool> stopped_{false};
   bool hurried_ = false;
   bool misfit_ = false;  // what is left is far more than noise: it takes no precision to see

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "../measurement/rigs.h"
@@ -75,6 +77,37 @@ TEST(EstimationTest, AnUnknownOffsetIsFoundBesideTheParameters) {
   // The profile's interval is near the curvature's, and holds the value.
   const ParameterEstimate& GJ = Of(estimation, "GJ");
   EXPECT_NEAR(GJ.high - GJ.low, 2 * 1.96 * GJ.sd, 0.1 * 2 * 1.96 * GJ.sd);
+}
+
+/// Of a swinging disc on the cable, seen at this rate [Hz].
+Estimation OfTorsionSampledAt(double rate) {
+  constexpr double kInertia = 1e-5, kDuration = 2, kNoise = 0.02;
+  Experiment experiment = testing::Torsion(kInertia, 0.5, kDuration,
+                                           1 + static_cast<int>(std::lround(kDuration * rate)));
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = kInertia;
+  Record(specimen, kNoise, &experiment);
+  experiment.channels[0].sigma = kNoise;
+  EstimationOptions options;
+  options.unknowns.end_damping = false;
+  Problems problems;
+  const Estimation estimation = Estimate(SetWith({experiment}, "[GJ, eta_GJ]"), options, &problems);
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+  EXPECT_TRUE(estimation.ok) << estimation.message;
+  return estimation;
+}
+
+TEST(EstimationTest, ARecordThatTwoCablesFitSaysSo) {
+  // The disc turns at sqrt(GJ / (L J)) = 4.5 Hz. At 10 Hz a swing of 5.4 Hz shows the same
+  // samples: that of a cable 1.44 times as stiff.
+  const auto several = [](const Estimation& estimation) {
+    return std::any_of(estimation.warnings.begin(), estimation.warnings.end(),
+                       [](const std::string& warning) {
+                         return warning.find("the minimum is one of several") != std::string::npos;
+                       });
+  };
+  EXPECT_TRUE(several(OfTorsionSampledAt(10)));
+  EXPECT_FALSE(several(OfTorsionSampledAt(100)));
 }
 
 TEST(EstimationTest, ItCanBeStopped) {

@@ -100,8 +100,14 @@ bool Polish(const RecordModel& model, const RecordJacobian& jacobian, const Nois
 /// From nowhere near: points spread around the start and `more` on the first part of the records,
 /// the best of them fitted to longer and longer parts, so that no swing is taken for the next.
 /// Unknown starts are found from the first part of a period before. On the way, unknowns that an
-/// experiment does not show are ignored there.
+/// experiment does not show are ignored there. `rival`, where it is asked for: the end of a search
+/// that led to another valley, and no lower; not `ok` where there was none.
 FitResult FitFromAfar(RecordModel* model, const std::vector<Eigen::VectorXd>& more,
-                      const NoiseLevels& noise, const FitProgress& progress);
+                      const NoiseLevels& noise, const FitProgress& progress,
+                      FitResult* rival = nullptr);
+
+/// Whether two fits of the same records have found the same minimum, as far as the curvature at the
+/// better one tells. False where there are no derivatives.
+bool InOneValley(const Unknowns& unknowns, const FitResult& best, const FitResult& other);
 
 }  // namespace cosserat_cable
