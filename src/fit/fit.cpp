@@ -31,9 +31,6 @@ constexpr double kFarthest = 5;
 // No channel is taken to be better than this part of the widest range of its kind in its record:
 // simulations are not.
 constexpr double kBestChannel = 1e-7;
-// A derivative whose records, over the unknown's whole size, stay below this part of the noise's
-// sum of squares is none.
-constexpr double kUnseen = 1e-3;
 // Steps with old derivatives; the gain in the sum of squares that is not worth another, and the
 // loss that rounding may make.
 constexpr int kPolishSteps = 6;

@@ -33,9 +33,6 @@ constexpr double kOfForetold = 0.5;
 // no rival. Two fits are in one valley where the curvature at one foretells a difference of less
 // than this part of what is left, or than chance makes.
 constexpr double kRival = 4, kSameCost = 0.05, kChance = 9;
-// A derivative whose records, over the unknown's whole size, stay below this part of the noise's
-// sum of squares is none.
-constexpr double kUnseen = 1e-3;
 constexpr std::uint32_t kSeed = 20150113;
 
 void LeaveOutUnseen(const Eigen::VectorXd& values, const NoiseLevels& noise, RecordModel* model) {

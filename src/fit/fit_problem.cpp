@@ -23,11 +23,6 @@ constexpr double kNear = 0.1;
 // Runs with finer steps, each followed by a fit.
 constexpr int kRounds = 2;
 
-double RootMeanSquare(const Eigen::VectorXd& values) {
-  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size()))
-                           : 0.0;
-}
-
 }  // namespace
 
 SetNoise NoiseOf(const MeasurementSet& set, const Records& simulated) {

@@ -25,7 +25,7 @@ constexpr int kOutOfReach = 3;
 // new ones.
 constexpr double kAsPromised = 0.3;
 // Of the largest diagonal entry: a direction that no residual shows is not followed.
-constexpr double kUnseen = 1e-14;
+constexpr double kZeroDiagonal = 1e-14;
 // Mean square of the residuals, in the noise's variance, above which they are no noise; and the
 // part of the rest that is not worth an iteration.
 constexpr double kMuchNoise = 4, kOfMisfit = 3e-5;
@@ -35,7 +35,7 @@ std::vector<Eigen::Index> FreeOf(const Eigen::VectorXd& x,
                                  const LeastSquaresProblem::Linearisation& at,
                                  const LeastSquaresOptions& options) {
   std::vector<Eigen::Index> free;
-  const double unseen = kUnseen * at.gram.diagonal().maxCoeff();
+  const double unseen = kZeroDiagonal * at.gram.diagonal().maxCoeff();
   for (Eigen::Index i = 0; i < x.size(); ++i) {
     if (!options.held.empty() && options.held[static_cast<std::size_t>(i)]) continue;
     if (!(at.gram(i, i) > unseen)) continue;

@@ -36,6 +36,11 @@ struct Predictor {
 
 }  // namespace
 
+double RootMeanSquare(const Eigen::VectorXd& values) {
+  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size()))
+                           : 0.0;
+}
+
 double NoiseOfSmooth(const Eigen::VectorXd& samples, const Eigen::VectorXd& usable) {
   Eigen::VectorXd d = samples;
   Eigen::VectorXd counts =

@@ -54,11 +54,6 @@ Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::Matr
   return Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
 }
 
-double RootMeanSquare(const Eigen::VectorXd& values) {
-  return values.size() > 0 ? std::sqrt(values.squaredNorm() / static_cast<double>(values.size()))
-                           : 0.0;
-}
-
 void EstimationWork::Charge(const std::string& stage) {
   const Clock::time_point now = Clock::now();
   auto& stages = estimation_.stages;

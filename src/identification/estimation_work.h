@@ -19,7 +19,6 @@ namespace cosserat_cable {
 /// Residuals of a channel at the samples that `count`.
 Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::MatrixXd& simulated,
                                  const Eigen::MatrixXd& count, int column);
-double RootMeanSquare(const Eigen::VectorXd& values);
 
 class EstimationWork {
  public:

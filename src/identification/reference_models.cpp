@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 
+#include "cosserat_cable/fit/noise.h"
 #include "cosserat_cable/math/pose_curve.h"
 
 namespace cosserat_cable {
@@ -99,11 +100,6 @@ struct Products {
   Eigen::MatrixXd gram;
   Eigen::VectorXd with_values;
 };
-
-double RootMeanSquare(const Eigen::VectorXd& values) {
-  return std::sqrt(values.squaredNorm() /
-                   static_cast<double>(std::max<Eigen::Index>(1, values.size())));
-}
 
 double LeftBy(const Part& part, const Eigen::VectorXd& weights) {
   return RootMeanSquare(part.values - part.inputs * weights);

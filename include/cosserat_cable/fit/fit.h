@@ -14,6 +14,10 @@ namespace cosserat_cable {
 /// Called with what is going on; false stops the fit.
 using FitProgress = std::function<bool(const std::string& what)>;
 
+/// A derivative whose records, over the unknown's whole size, stay below this part of the noise's
+/// sum of squares is none.
+inline constexpr double kUnseen = 1e-3;
+
 /// What a channel's noise is taken to be at least [the channel's unit].
 double SmallestNoise(const Experiment& experiment, int channel);
 

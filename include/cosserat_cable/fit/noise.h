@@ -6,6 +6,9 @@
 
 namespace cosserat_cable {
 
+/// Zero for no values.
+double RootMeanSquare(const Eigen::VectorXd& values);
+
 /// Standard deviation of the noise of a smooth signal, from differences of high order: what is left
 /// of it where the signal is resolved by its samples, a little too much where it is not. Samples
 /// for which `usable` is zero, where it is given, do not count.
