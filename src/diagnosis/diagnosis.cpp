@@ -1,6 +1,7 @@
 #include "cosserat_cable/diagnosis/diagnosis.h"
 
 #include <algorithm>
+#include <set>
 
 #include "diagnosis_work.h"
 
@@ -10,19 +11,30 @@ namespace {
 // Causes that are fitted alone, and together with the best.
 constexpr int kMostCandidates = 10, kMostPairs = 3, kAll = 19;
 // How many single causes pairs are begun from.
-constexpr int kPairsFrom = 2;
+constexpr std::size_t kPairsFrom = 2;
+// Part of the misfit that a first cause explains from which a second is looked for at once, before
+// causes that promise little.
+constexpr double kWorthASecondNow = 0.4;
 // What a second cause must promise, in noise variances, beside a first that leaves just noise.
 constexpr double kWorthASecond = 40;
 
-/// The single causes that fit best, by their places among the models.
-std::vector<int> BestSingles(const DiagnosisWork& work, int models, int most) {
+/// The best fits together with a second cause. `begun`: causes from which that was done.
+void FitPairs(std::set<std::string>* begun, DiagnosisWork* work) {
   std::vector<int> singles;
+  const int models = work->count();
   for (int i = 1; i < models; ++i)
-    if (work.model(i).trials.size() == 1) singles.push_back(i);
+    if (work->model(i).trials.size() == 1) singles.push_back(i);
   std::sort(singles.begin(), singles.end(),
-            [&](int a, int b) { return work.model(a).point.cost < work.model(b).point.cost; });
-  if (static_cast<int>(singles.size()) > most) singles.resize(static_cast<std::size_t>(most));
-  return singles;
+            [&](int a, int b) { return work->model(a).point.cost < work->model(b).point.cost; });
+  if (singles.size() > kPairsFrom) singles.resize(kPairsFrom);
+  for (const int single : singles) {
+    if (!begun->insert(work->model(single).causes().front()).second) continue;
+    work->FitCandidates(work->ScreenAround(work->model(single), "screening of pairs"),
+                        &work->model(single), kMostPairs, 0.6);
+  }
+  work->FitParts();
+  work->Continue(0.7);
+  work->RefineBest();
 }
 
 }  // namespace
@@ -49,6 +61,10 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
   work.FitFromSimpler();
   work.Continue(0.4);
   work.RefineBest();
+  std::set<std::string> begun;
+  // Two causes of a size: each explains a good part, and the right one is there already.
+  const bool is_half_seen = work.ShareOfBest() > kWorthASecondNow;
+  if (is_half_seen && work.Judged().verdict == Verdict::kUnexplained) FitPairs(&begun, &work);
   if (work.Judged().verdict == Verdict::kUnexplained) {
     // Far from the plain model its derivatives promise little of what is right.
     work.FitCandidates(screened, nullptr, kAll, 0.4);
@@ -60,12 +76,7 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
   const Judgement first = work.Judged();
   if (work.Stopping()) return work.Report();
   if (first.verdict == Verdict::kUnexplained) {
-    for (const int single : BestSingles(work, static_cast<int>(first.rejected.size()), kPairsFrom))
-      work.FitCandidates(work.ScreenAround(work.model(single), "screening of pairs"),
-                         &work.model(single), kMostPairs, 0.6);
-    work.FitParts();
-    work.Continue(0.7);
-    work.RefineBest();
+    FitPairs(&begun, &work);
   } else if (first.verdict == Verdict::kNamed && !work.LeavesNothing(first.best)) {
     std::vector<Screened> second = work.ScreenAround(work.model(first.best), "screening of pairs");
     second.erase(std::remove_if(second.begin(), second.end(),

@@ -491,6 +491,15 @@ bool DiagnosisWork::LeavesNothing(int i) const {
   return adequacy.excess() < std::max(kNothing * adequacy.expected, 2 * adequacy.sd);
 }
 
+double DiagnosisWork::ShareOfBest() const {
+  const Adequacy plain = AdequacyOf(models_.front()->point, noise_);
+  double share = 0;
+  for (const auto& model : models_)
+    share = std::max(share, (plain.chi2 - AdequacyOf(model->point, noise_).chi2) /
+                                std::max(plain.excess(), 1.0));
+  return share;
+}
+
 Judgement DiagnosisWork::Judged() const {
   std::vector<Contender> contenders;
   for (const auto& model : models_)

@@ -64,6 +64,9 @@ class DiagnosisWork {
   Diagnosis Report();
 
   const FittedTrial& baseline() const { return *models_.front(); }
+  int count() const { return static_cast<int>(models_.size()); }
+  /// The part of the plain model's misfit that the best of the others explains.
+  double ShareOfBest() const;
   const FittedTrial& model(int i) const { return *models_[static_cast<std::size_t>(i)]; }
   bool Stopping() const;
   /// For fits; what follows them has the rest of the time.
