@@ -24,11 +24,10 @@ std::size_t GroupLimit(std::size_t cables, int threads) {
 }  // namespace
 
 struct CableFleet::Impl {
-  /// Cables that share a kernel. A lone one has the lanes for itself: by Rod::Step it would take
-  /// half the time, but round otherwise, and so see whether there are others of its kind.
+  /// Cables that share a kernel.
   struct Group {
     std::vector<std::size_t> members;
-    std::optional<rod::RodBatch> batch;
+    std::optional<rod::RodBatch> batch;  // none: of a cable that goes by itself
     std::vector<rod::RodDrive> drives;
   };
 
@@ -36,7 +35,7 @@ struct CableFleet::Impl {
   std::vector<Group> groups;
 };
 
-CableFleet::CableFleet(const std::vector<CableSimulation*>& cables, int threads)
+CableFleet::CableFleet(const std::vector<CableSimulation*>& cables, int threads, LoneCable lone)
     : impl_(std::make_unique<Impl>()) {
   impl_->cables = cables;
   // What the rods of a batch have in common: the number of elements, and how ends are held.
@@ -54,10 +53,12 @@ CableFleet::CableFleet(const std::vector<CableSimulation*>& cables, int threads)
       Impl::Group group;
       group.members.assign(members.begin() + g * members.size() / count,
                            members.begin() + (g + 1) * members.size() / count);
-      std::vector<rod::Rod*> rods;
-      for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
-      group.batch.emplace(rods);
-      group.drives.resize(rods.size());
+      if (group.members.size() > 1 || lone == LoneCable::kInLanes) {
+        std::vector<rod::Rod*> rods;
+        for (std::size_t i : group.members) rods.push_back(&cables[i]->impl_->rod);
+        group.batch.emplace(rods);
+        group.drives.resize(rods.size());
+      }
       impl_->groups.push_back(std::move(group));
     }
   }
@@ -75,6 +76,10 @@ void CableFleet::StepGroup(std::size_t index, double dt,
                            const std::vector<const Surroundings*>& then,
                            std::vector<StepOutcome>* outcomes) {
   Impl::Group& group = impl_->groups[index];
+  if (!group.batch) {
+    if (then[0]) (*outcomes)[0] = impl_->cables[group.members[0]]->Step(dt, *then[0]);
+    return;
+  }
   for (std::size_t k = 0; k < group.members.size(); ++k) {
     group.drives[k] = {};
     if (!then[k]) continue;
@@ -83,8 +88,9 @@ void CableFleet::StepGroup(std::size_t index, double dt,
       continue;
     }
     CableSimulation::Impl& cable = *impl_->cables[group.members[k]]->impl_;
+    cable.TakeSection(*then[k]);
     cable.SearchContact(dt, *then[k]);
-    group.drives[k] = {&then[k]->a.X, &then[k]->b.X, cable.load()};
+    group.drives[k] = {&then[k]->a.X, &then[k]->b.X, cable.LoadIn(*then[k])};
   }
   const std::vector<rod::SolveReport>& reports = group.batch->Step(dt, group.drives);
   for (std::size_t k = 0; k < group.members.size(); ++k) {

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "cable_simulation_impl.h"
-#include "cosserat_cable/cable/cable_rod.h"
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/rod/initial_shape.h"
 
@@ -60,9 +59,10 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
   }
   m.now = now;
   m.contact.Reset();
+  m.TakeSection(now);
   m.rod.SetConfiguration(
-      rod::BowedShape(now.a.X, now.b.X, m.model.length, m.model.elements, m.gravity_W));
-  rod::SolveReport report = m.rod.Equilibrate();
+      rod::BowedShape(now.a.X, now.b.X, m.model.length, m.model.elements, m.rod.model().gravity));
+  rod::SolveReport report = m.rod.Equilibrate(now.load);
   outcome.iterations = report.iterations;
   if (!report.converged) {
     outcome.message =
@@ -85,12 +85,17 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
     return outcome;
   }
   if (!Rests(now)) m.SetOut(now, &outcome);
-  m.TakePositions();
-  m.contact.Search(now.a.X, m.positions, now.obstacles);
-  m.contact.Accept();
-  m.nodes_are_known = false;
+  m.Begin(now);
   outcome.ok = true;
   return outcome;
+}
+
+void CableSimulation::Impl::Begin(const Surroundings& start) {
+  if (contact.has_bodies()) {
+    TakePositions();
+    contact.Search(start.a.X, positions, start.obstacles);
+  }
+  Accept(start);
 }
 
 double CableSimulation::Impl::Depth() const {
@@ -105,7 +110,7 @@ bool CableSimulation::Impl::SettleOnBodies(StepOutcome* outcome) {
     TakePositions();
     const std::vector<Eigen::Vector3d> before = positions;
     contact.Search(now.a.X, positions, now.obstacles);
-    const rod::SolveReport report = rod.EquilibrateNearby(load());
+    const rod::SolveReport report = rod.EquilibrateNearby(LoadIn(now));
     outcome->iterations += report.iterations;
     if (!report.converged) return false;
     contact.Accept();
@@ -123,13 +128,13 @@ bool CableSimulation::Impl::SettleOnBodies(StepOutcome* outcome) {
 // what is in its way: in steps of time, for on round bodies the way to rest is long. Between falls
 // it is stopped.
 void CableSimulation::Impl::PayOut(StepOutcome* outcome) {
-  Surroundings still{Motion::Resting(now.a.X), Motion::Resting(now.b.X), {}};
+  Surroundings still{Motion::Resting(now.a.X), Motion::Resting(now.b.X), {}, now.load, nullptr};
   for (const Motion& body : now.obstacles) still.obstacles.push_back(Motion::Resting(body.X));
   const double chord = (now.b.X.p - now.a.X.p).norm() / model.length;
   const double shortest = std::clamp(kShortest * chord, kSmallestLoop, 1.0);
-  rod::RodModel growing = MakeRodModel(model, gravity_W);
+  rod::RodModel growing = rod.model();
   std::vector<Pose> shape =
-      rod::BowedShape(now.a.X, now.b.X, shortest * model.length, model.elements, gravity_W);
+      rod::BowedShape(now.a.X, now.b.X, shortest * model.length, model.elements, growing.gravity);
   contact.Reset();
   for (int stage = 0; stage <= kStages; ++stage) {
     // The sag of a taut cable grows with the root of its length.
@@ -138,12 +143,12 @@ void CableSimulation::Impl::PayOut(StepOutcome* outcome) {
     rod = rod::Rod(growing);
     rod.SetConfiguration(shape);
     rod.SetClamps(now.a.X, now.b.X);
-    if (stage == 0) outcome->iterations += rod.Equilibrate().iterations;
+    if (stage == 0) outcome->iterations += rod.Equilibrate(now.load).iterations;
     const int steps = stage < kStages ? kStepsOfStage : kMaxSteps;
     double energy = 0, highest = 0;
     for (int step = 0; step < steps; ++step) {
       SearchContact(kFallStep, still);
-      const rod::SolveReport report = rod.Step(kFallStep, still.a.X, still.b.X, load());
+      const rod::SolveReport report = rod.Step(kFallStep, still.a.X, still.b.X, LoadIn(still));
       outcome->iterations += report.iterations;
       if (!report.converged) break;
       contact.Accept();
@@ -195,7 +200,7 @@ void CableSimulation::Impl::SetOut(const Surroundings& start, StepOutcome* outco
     contact.Search(a, positions, bodies);
     moved.SetConfiguration(poses);
     moved.SetClamps(a, b);
-    const rod::SolveReport report = moved.EquilibrateNearby(load());
+    const rod::SolveReport report = moved.EquilibrateNearby(LoadIn(now));
     outcome->iterations += report.iterations;
     double farthest = 0;
     for (int i = 0; i < count; ++i)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cable_simulation_impl.h"
 #include "cosserat_cable/cable/cable_rod.h"
@@ -13,8 +14,11 @@ namespace {
 // A step that does not converge is halved up to so often.
 constexpr int kMaxHalvings = 5;
 
+// Needs no more than the two ends, and is off from a smooth way between them by O(h^6) only: so
+// those who step need not tell the way.
 Surroundings Between(const Surroundings& left, const Surroundings& right, double h, double time) {
   Surroundings between;
+  between.load = right.load;
   between.a = MotionBetween(left.a, right.a, h, time);
   between.b = MotionBetween(left.b, right.b, h, time);
   for (std::size_t i = 0; i < right.obstacles.size(); ++i)
@@ -43,11 +47,10 @@ StepOutcome RefuseNonFinite() {
   return outcome;
 }
 
-CableSimulation::Impl::Impl(const CableModel& m, const std::vector<const Body*>& bodies,
-                            const Eigen::Vector3d& gravity, double clearance_reach)
+CableSimulation::Impl::Impl(const CableModel& m, rod::Rod at_start,
+                            const std::vector<const Body*>& bodies, double clearance_reach)
     : model(m),
-      gravity_W(gravity),
-      rod(MakeRodModel(m, gravity)),
+      rod(std::move(at_start)),
       contact(m, bodies),
       nearest(contact.sites(), bodies, clearance_reach + 0.5 * m.diameter),
       nodes(m.elements + 1),
@@ -55,7 +58,13 @@ CableSimulation::Impl::Impl(const CableModel& m, const std::vector<const Body*>&
 
 CableSimulation::CableSimulation(const CableModel& model, std::vector<const Body*> obstacles,
                                  const Eigen::Vector3d& gravity_W, double clearance_reach)
-    : impl_(std::make_unique<Impl>(model, obstacles, gravity_W, clearance_reach)) {}
+    : impl_(std::make_unique<Impl>(model, rod::Rod(MakeRodModel(model, gravity_W)), obstacles,
+                                   clearance_reach)) {}
+CableSimulation::CableSimulation(const CableModel& model, rod::Rod rod, const Surroundings& now,
+                                 std::vector<const Body*> obstacles, double clearance_reach)
+    : impl_(std::make_unique<Impl>(model, std::move(rod), obstacles, clearance_reach)) {
+  impl_->Begin(now);
+}
 CableSimulation::~CableSimulation() = default;
 CableSimulation::CableSimulation(CableSimulation&&) noexcept = default;
 CableSimulation& CableSimulation::operator=(CableSimulation&&) noexcept = default;
@@ -63,8 +72,9 @@ CableSimulation& CableSimulation::operator=(CableSimulation&&) noexcept = defaul
 StepOutcome CableSimulation::Step(double dt, const Surroundings& then) {
   Impl& m = *impl_;
   if (!IsFinite(then)) return RefuseNonFinite();
+  m.TakeSection(then);
   m.SearchContact(dt, then);
-  const rod::SolveReport report = m.rod.Step(dt, then.a.X, then.b.X, m.load());
+  const rod::SolveReport report = m.rod.Step(dt, then.a.X, then.b.X, m.LoadIn(then));
   if (!report.converged) return m.StepInParts(dt, then, report.iterations);
   m.Accept(then);
   StepOutcome outcome;
@@ -86,7 +96,7 @@ StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& th
     const double part = last ? dt - done : step;
     const Surroundings next = last ? then : Between(now, then, dt, done + step);
     SearchContact(part, next);
-    const rod::SolveReport report = rod.Step(part, next.a.X, next.b.X, load());
+    const rod::SolveReport report = rod.Step(part, next.a.X, next.b.X, LoadIn(next));
     outcome.iterations += report.iterations;
     if (report.converged) {
       contact.Accept();
@@ -110,6 +120,7 @@ StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& th
 }
 
 const CableModel& CableSimulation::model() const { return impl_->model; }
+const rod::Rod& CableSimulation::rod() const { return impl_->rod; }
 const std::vector<Pose>& CableSimulation::nodes() const { return impl_->Nodes(); }
 Pose CableSimulation::node(int i) const { return impl_->rod.pose(i); }
 
@@ -133,7 +144,7 @@ ContactPoint CableSimulation::DeepestContact() const {
 }
 
 std::vector<rod::Mode> CableSimulation::FindModes(int count) const {
-  return rod::FindModes(impl_->rod, count, impl_->load());
+  return rod::FindModes(impl_->rod, count, impl_->LoadIn(impl_->now));
 }
 
 CableReport CableSimulation::Report() {

@@ -6,13 +6,14 @@
 #include "contact_set.h"
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/math/small_eigen.h"
+#include "cosserat_cable/rod/load.h"
 #include "cosserat_cable/rod/rod.h"
 #include "nearest_body.h"
 
 namespace cosserat_cable {
 
 struct CableSimulation::Impl {
-  Impl(const CableModel& m, const std::vector<const Body*>& bodies, const Eigen::Vector3d& gravity,
+  Impl(const CableModel& m, rod::Rod at_start, const std::vector<const Body*>& bodies,
        double clearance_reach);
 
   /// Of the present state.
@@ -26,7 +27,13 @@ struct CableSimulation::Impl {
   void TakePositions() {
     for (int i = 0; i <= model.elements; ++i) positions[i] = ToEigen(rod.position(i));
   }
-  const rod::Load* load() const { return contact.empty() ? nullptr : &contact; }
+  /// Contact as it was searched last, and what the surroundings load the cable with.
+  const rod::Load* LoadIn(const Surroundings& at) {
+    if (contact.empty()) return at.load;
+    if (!at.load) return &contact;
+    both.loads.assign({&contact, at.load});
+    return &both;
+  }
 
   /// How deep the cable is in what the last search found [m].
   double Depth() const;
@@ -34,13 +41,19 @@ struct CableSimulation::Impl {
   bool SettleOnBodies(StepOutcome* outcome);
   /// Puts the cable on what it would hang through, growing from a short one to its length.
   void PayOut(StepOutcome* outcome);
+  /// The cable is as it is in these surroundings: the state that the next step starts from.
+  void Begin(const Surroundings& start);
   /// Sets the cable, at rest, moving with its surroundings.
   void SetOut(const Surroundings& start, StepOutcome* outcome);
   void TakeShape(std::vector<Pose>* shape) const {
     for (int i = 0; i <= model.elements; ++i) (*shape)[i] = rod.pose(i);
   }
+  void TakeSection(const Surroundings& from) {
+    if (from.section) rod.SetSection(*from.section);
+  }
   /// Looks for contact where the cable is about to be.
   void SearchContact(double dt, const Surroundings& then) {
+    if (!contact.has_bodies()) return;
     rod.Predict(dt, then.a.X, then.b.X, &positions);
     contact.Search(then.a.X, positions, then.obstacles);
   }
@@ -55,10 +68,10 @@ struct CableSimulation::Impl {
   StepOutcome StepInParts(double dt, const Surroundings& then, int iterations_so_far);
 
   CableModel model;
-  Eigen::Vector3d gravity_W;
   rod::Rod rod;
   ContactSet contact;
   NearestBody nearest;
+  rod::LoadSum both;  // scratch of LoadIn
   Surroundings now;
   std::vector<Pose> nodes;  // of the state that was last asked for
   bool nodes_are_known = false;

@@ -36,6 +36,7 @@ class ContactSet : public rod::Load {
   /// Forgets every side, as for a cable that is put somewhere else.
   void Reset();
 
+  bool has_bodies() const { return !bodies_.empty(); }
   bool empty() const { return planes_.empty(); }
   const std::vector<ContactSite>& sites() const { return sites_; }
 

@@ -87,6 +87,28 @@ TEST(CableFleetTest, GroupsForThreadsChangeNothing) {
     EXPECT_EQ(one[k].Report().apex, two[k].Report().apex) << k;
 }
 
+TEST(CableFleetTest, ALoneCableMayGoByItself) {
+  const std::vector<int> elements = {20, 30, 20};
+  std::vector<CableSimulation> fleet = Settled(elements), alone = Settled(elements),
+                               lanes = Settled(elements);
+  CableFleet mixed(Pointers(fleet), 1, LoneCable::kByItself), all_in_lanes(Pointers(lanes));
+  for (int s = 1; s <= 100; ++s) {
+    const Surroundings then = At(s * kDt);
+    const std::vector<const Surroundings*> thens(elements.size(), &then);
+    for (const StepOutcome& outcome : mixed.Step(kDt, thens)) ASSERT_TRUE(outcome.ok);
+    all_in_lanes.Step(kDt, thens);
+    ASSERT_TRUE(alone[1].Step(kDt, then).ok);
+  }
+  EXPECT_EQ(fleet[0].Report().apex, lanes[0].Report().apex);
+  EXPECT_EQ(fleet[1].Report().apex, alone[1].Report().apex);
+  EXPECT_EQ(fleet[2].Report().apex, lanes[2].Report().apex);
+  // One that is left alone stays where it is.
+  const Eigen::Vector3d before = fleet[1].Report().apex;
+  const Surroundings then = At(101 * kDt);
+  mixed.Step(kDt, {&then, nullptr, &then});
+  EXPECT_EQ(fleet[1].Report().apex, before);
+}
+
 TEST(CableFleetTest, GroupsAreSharedOutAsFarAsTheyFillAKernel) {
   const auto sizes = [](std::size_t cables, int threads) {
     std::vector<CableSimulation> fleet;

@@ -6,6 +6,8 @@
 #include <limits>
 
 #include "cable/cable_cases.h"
+#include "cosserat_cable/cable/cable_rod.h"
+#include "cosserat_cable/rod/point_loads.h"
 
 namespace cosserat_cable {
 namespace {
@@ -235,6 +237,75 @@ TEST(CableSimulationTest, SettlesOnABodyThatItTouchesAtRest) {
   EXPECT_NEAR(report.force_a.z() + report.force_b.z() + report.contact_force, 0.4 * 0.12 * 9.81,
               1e-6);
   EXPECT_LT(std::abs(report.clearance), 1e-3);
+}
+
+TEST(CableSimulationTest, AGivenLoadActsBesideContact) {
+  constexpr double kForce = 1e-6;  // N, of 0.77 N
+  constexpr double kDrift = 1e-7;  // m, in contact
+  CableSimulation free(Hose(), {}, kGravity);
+  ASSERT_TRUE(free.Settle(HoseClamps()).ok);
+  const double floor_z = LowestPoint(free) + 0.01;
+  const Body floor({BoxAt({1, 1, 0.1}, {0, 0, floor_z - 0.05})});
+  CableSimulation cable(Hose(), {&floor}, kGravity);
+  const rod::PointLoads load(0.4, {{0.1, {0, 0, -0.3}}});
+  Surroundings s = HoseClamps();
+  s.obstacles.resize(1);
+  s.load = &load;
+  ASSERT_TRUE(cable.Settle(s).ok);
+  const CableReport report = cable.Report();
+  EXPECT_GT(report.contact_force, 0);
+  EXPECT_NEAR(report.force_a.z() + report.force_b.z() + report.contact_force,
+              0.4 * 0.12 * 9.81 + 0.3, kForce);
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  EXPECT_LT((cable.Report().apex - report.apex).norm(), kDrift);
+  // Without the load it is no longer at rest.
+  s.load = nullptr;
+  for (int k = 0; k < 40; ++k) ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  EXPECT_GT((cable.Report().apex - report.apex).norm(), 1e3 * kDrift);
+}
+
+TEST(CableSimulationTest, ASectionThatChangesIsTakenFromTheStepOn) {
+  constexpr double kSame = 1e-9;  // m, of equilibria
+  CableModel soft = Hose();
+  soft.EI1 = soft.EI2 = 0.5 * Hose().EI1;
+  const rod::Section section = MakeRodModel(soft, kGravity).section;
+  CableSimulation other(soft, {}, kGravity), cable(Hose(), {}, kGravity);
+  Surroundings s = HoseClamps();
+  ASSERT_TRUE(other.Settle(s).ok);
+  ASSERT_TRUE(cable.Settle(s).ok);
+  const Vector3d stiff_apex = cable.Report().apex;
+  s.section = &section;
+  ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  s.section = nullptr;  // it stays
+  for (int k = 0; k < 20; ++k) ASSERT_TRUE(cable.Step(1e-3, s).ok);
+  EXPECT_GT((cable.Report().apex - stiff_apex).norm(), 1e3 * kSame);
+  s.section = &section;
+  ASSERT_TRUE(cable.Settle(s).ok);
+  EXPECT_LT((cable.Report().apex - other.Report().apex).norm(), kSame);
+}
+
+TEST(CableSimulationTest, GoesOnFromARodThatMoves) {
+  // A rod that was stepped by itself for a while, and one that goes all the way.
+  const rod::RodModel model = MakeRodModel(Hose(), kGravity);
+  CableSimulation settled(Hose(), {}, kGravity);
+  ASSERT_TRUE(settled.Settle(HoseClamps()).ok);
+  rod::Rod rod(model);
+  rod.SetConfiguration(settled.nodes());
+  Surroundings s = HoseClamps();
+  const auto move = [&](int k) { s.b.X.p.z() = 0.01 * std::sin(0.1 * k); };
+  rod::Rod all_the_way(rod);
+  for (int k = 1; k <= 50; ++k) {
+    move(k);
+    ASSERT_TRUE(rod.Step(1e-3, s.a.X, s.b.X).converged);
+    ASSERT_TRUE(all_the_way.Step(1e-3, s.a.X, s.b.X).converged);
+  }
+  CableSimulation cable(Hose(), std::move(rod), s);
+  for (int k = 51; k <= 100; ++k) {
+    move(k);
+    ASSERT_TRUE(cable.Step(1e-3, s).ok);
+    ASSERT_TRUE(all_the_way.Step(1e-3, s.a.X, s.b.X).converged);
+  }
+  for (int i = 0; i <= Hose().elements; ++i) EXPECT_EQ(cable.node(i).p, all_the_way.pose(i).p);
 }
 
 TEST(CableSimulationTest, AMotionThatIsNotFiniteIsRefused) {

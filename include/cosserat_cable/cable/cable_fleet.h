@@ -9,16 +9,23 @@
 
 namespace cosserat_cable {
 
+/// How a cable is stepped that has no other of its kind beside it.
+enum class LoneCable {
+  kInLanes,  ///< as others are: it does not see, to the last bit, whether there are any
+  kByItself  ///< by CableSimulation::Step: in half the time, but rounded otherwise
+};
+
 /// Takes the same steps as CableSimulation::Step, but for rounding, several cables at a time: those
 /// with equal numbers of elements, and the same ends held rigidly, go in groups of up to four (up
 /// to eight, where the machine's vectors are as wide) through the lanes of one kernel. What a cable
 /// does does not depend, to the last bit, on how they are grouped, on what those in its group are
-/// and do, nor on whether there are others at all.
+/// and do, nor, but for LoneCable::kByItself, on whether there are others at all.
 class CableFleet {
  public:
   /// The simulations outlive this, and are stepped through it only. `threads`: for which there are
   /// to be groups, as long as these are worth a kernel.
-  explicit CableFleet(const std::vector<CableSimulation*>& cables, int threads = 1);
+  explicit CableFleet(const std::vector<CableSimulation*>& cables, int threads = 1,
+                      LoneCable lone = LoneCable::kInLanes);
   ~CableFleet();
   CableFleet(CableFleet&&) noexcept;
   CableFleet& operator=(CableFleet&&) noexcept;

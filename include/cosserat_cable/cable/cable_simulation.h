@@ -13,14 +13,21 @@
 #include "cosserat_cable/contact/body.h"
 #include "cosserat_cable/math/pose.h"
 #include "cosserat_cable/rod/energy.h"
+#include "cosserat_cable/rod/load.h"
 #include "cosserat_cable/rod/modes.h"
+#include "cosserat_cable/rod/rod.h"
 
 namespace cosserat_cable {
 
-/// Motions of everything that drives a cable, in W, at one instant.
+/// Everything that drives a cable, in W, at one instant.
 struct Surroundings {
   Motion a, b;                    ///< the clamps' section frames
   std::vector<Motion> obstacles;  ///< of the bodies given at construction, in their order
+  /// What acts on the cable beside gravity, its own loads and contact; null: nothing. Outlives the
+  /// simulation's use of these surroundings, which ends with the next step.
+  const rod::Load* load = nullptr;
+  /// The section from here on, of a cable that changes in time; null: it stays as it is.
+  const rod::Section* section = nullptr;
 };
 
 struct StepOutcome {
@@ -49,7 +56,7 @@ struct CableReport {
   double tension_max = 0;                       ///< largest axial force [N] (positive: tension)
   Eigen::Vector3d force_a, moment_a;            ///< by clamp a on the cable [N], [N m]
   Eigen::Vector3d force_b, moment_b;
-  rod::EnergyBalance energy;  ///< since the cable settled; loads are contact
+  rod::EnergyBalance energy;  ///< since the cable settled; loads are contact and what was given
 };
 
 /// Where a cable and the bodies around it are at one instant, in W.
@@ -64,6 +71,11 @@ class CableSimulation {
   /// The bodies outlive the simulation. `clearance_reach` [m]: bodies farther away count as none.
   CableSimulation(const CableModel& model, std::vector<const Body*> obstacles,
                   const Eigen::Vector3d& gravity_W, double clearance_reach = 0.05);
+  /// A cable that is at its start already, in any state, and may be held otherwise than by two
+  /// clamps, or carry more than its file says. `rod`: of the model's length and elements. `now`:
+  /// clamps and bodies at the start.
+  CableSimulation(const CableModel& model, rod::Rod rod, const Surroundings& now,
+                  std::vector<const Body*> obstacles = {}, double clearance_reach = 0.05);
   ~CableSimulation();
   CableSimulation(CableSimulation&&) noexcept;
   CableSimulation& operator=(CableSimulation&&) noexcept;
@@ -72,11 +84,13 @@ class CableSimulation {
   /// moving as if it had followed clamps and bodies through equilibria so far.
   StepOutcome Settle(const Surroundings& now);
 
-  /// Advances by `dt` [s] to the instant at which `then` holds. On failure the state stays the last
-  /// good one.
+  /// Advances by `dt` [s] to the instant at which `then` holds. A step that does not converge is
+  /// taken in parts: between the two instants clamps and bodies go as MotionBetween says, under the
+  /// load and with the section of `then`. On failure the state stays the last good one.
   StepOutcome Step(double dt, const Surroundings& then);
 
   const CableModel& model() const;
+  const rod::Rod& rod() const;
 
   /// Centreline and section frames at the `elements + 1` nodes, in W.
   const std::vector<Pose>& nodes() const;
