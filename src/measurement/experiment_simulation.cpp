@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "channel_probe.h"
+#include "cosserat_cable/cable/cable_fleet.h"
 #include "cosserat_cable/rod/modes.h"
 #include "cosserat_cable/rod/rod_batch.h"
 #include "low_pass.h"
@@ -19,8 +20,6 @@ namespace {
 // A release is a jump of the accelerations, which a step of full size would spread over its length.
 // The first step is taken in parts that begin with dt/2^kGrading and double.
 constexpr int kGrading = 10;
-// A step that does not converge is taken in parts of down to dt/2^kMaxHalvings.
-constexpr int kMaxHalvings = 5;
 // Steps between two questions whether to go on.
 constexpr int kStepsUnasked = 16;
 constexpr const char* kStopped = "stopped";
@@ -39,80 +38,6 @@ struct Run {
   std::vector<double> times;  ///< of the record's samples, on the motion's clock [s]
   std::vector<ChannelSensor> sensors;
   int steps = 0;  ///< that its samples need, and the start
-};
-
-/// Takes the step from `t` by `dt` alone, in ever smaller parts.
-bool StepInParts(double t, double dt, Rig* rig) {
-  const rod::Rod before = *rig->rod();
-  for (int halvings = 1; halvings <= kMaxHalvings; ++halvings) {
-    const int parts = 1 << halvings;
-    bool ok = true;
-    for (int k = 1; k <= parts && ok; ++k) {
-      rig->MoveTo(t + dt * k / parts);
-      ok = rig->rod()->Step(dt / parts, rig->clamp_a(), rig->clamp_b(), rig->load()).converged;
-    }
-    if (ok) return true;
-    *rig->rod() = rod::Rod(before);
-  }
-  return false;
-}
-
-/// Rigs in the lanes of one kernel. Those that fail are left out from then on.
-class Side {
- public:
-  explicit Side(std::vector<Run> runs) : runs_(std::move(runs)), drives_(runs_.size()) {
-    std::vector<rod::Rod*> rods;
-    for (Run& run : runs_) rods.push_back(run.rig->rod());
-    if (rods.size() > 1) batch_ = std::make_unique<rod::RodBatch>(rods);
-  }
-
-  /// The step `number`, or a part of it, of those that need it.
-  void Step(int number, double t, double dt) {
-    for (std::size_t k = 0; k < runs_.size(); ++k) {
-      drives_[k] = {};
-      if (!Needs(runs_[k], number)) continue;
-      Rig& rig = *runs_[k].rig;
-      rig.MoveTo(t + dt);
-      drives_[k] = {&rig.clamp_a(), &rig.clamp_b(), rig.load()};
-    }
-    if (batch_) {
-      const std::vector<rod::SolveReport>& reports = batch_->Step(dt, drives_);
-      for (std::size_t k = 0; k < runs_.size(); ++k)
-        if (drives_[k].a && !reports[k].converged) Retry(t, dt, &runs_[k]);
-    } else if (drives_[0].a) {
-      const rod::SolveReport report =
-          runs_[0].rig->rod()->Step(dt, *drives_[0].a, *drives_[0].b, drives_[0].load);
-      if (!report.converged) Retry(t, dt, &runs_[0]);
-    }
-  }
-
-  const std::vector<Run>& runs() const { return runs_; }
-  void Fail(const std::string& why) {
-    for (Run& run : runs_) {
-      if (!run.result->ok) continue;
-      run.result->ok = false;
-      run.result->message = why;
-    }
-  }
-  bool AnyNeeds(int step) const {
-    return std::any_of(runs_.begin(), runs_.end(),
-                       [&](const Run& run) { return Needs(run, step); });
-  }
-  /// Whether the run is to be sampled after a step; the start is step 0.
-  static bool Needs(const Run& run, int step) { return run.result->ok && step < run.steps; }
-
- private:
-  static void Retry(double t, double dt, Run* run) {
-    if (StepInParts(t, dt, run->rig.get())) return;
-    run->result->ok = false;
-    run->result->message = "Newton's iteration does not converge at t = " + std::to_string(t) +
-                           " s, with steps down to " +
-                           std::to_string(dt * 1e6 / (1 << kMaxHalvings)) + " us";
-  }
-
-  std::vector<Run> runs_;
-  std::unique_ptr<rod::RodBatch> batch_;
-  std::vector<rod::RodDrive> drives_;
 };
 
 bool Stopped(const SimulationOptions& options) { return options.stop && options.stop(); }
@@ -148,41 +73,76 @@ Eigen::VectorXd Shown(const Experiment& experiment, int channel, const Run& run,
   return shown;
 }
 
-void SimulateMotion(const Experiment& experiment, const SimulationOptions& options,
-                    std::vector<Run> all) {
-  const double dt = options.dt;
+/// Whether the run is to be sampled after a step; the start is step 0.
+bool Needs(const Run& run, int step) { return run.result->ok && step < run.steps; }
+
+void Fail(const std::string& why, Run* run) {
+  run->result->ok = false;
+  run->result->message = why;
+}
+
+/// Runs that are a group of the fleet, from their start on. Those that fail are left out from then.
+void SimulateGroup(const Experiment& experiment, const SimulationOptions& options,
+                   const std::vector<Run*>& runs, std::size_t group, CableFleet* fleet) {
+  const double start = experiment.start_time(), dt = options.dt;
   const int channels = static_cast<int>(experiment.channels.size());
-  const double start = experiment.start_time();
-  for (Run& run : all)
-    run.steps =
-        1 + std::max(1, static_cast<int>(std::ceil((run.times.back() - start) / dt - 1e-9)));
-  Side side(std::move(all));
-  const std::vector<Run>& runs = side.runs();
   std::vector<ChannelProbe> probes;
   std::vector<Trace> traces;
-  for (const Run& run : runs) {
-    probes.emplace_back(experiment.channels, run.sensors);
-    traces.emplace_back(start, dt, run.steps, channels);
+  for (const Run* run : runs) {
+    probes.emplace_back(experiment.channels, run->sensors);
+    traces.emplace_back(start, dt, run->steps, channels);
   }
   const auto sample = [&](int step) {
-    for (std::size_t k = 0; k < traces.size(); ++k)
-      if (Side::Needs(runs[k], step)) probes[k].Sample(*runs[k].rig, traces[k].at(step));
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      if (Needs(*runs[k], step)) probes[k].Sample(*runs[k]->rig, traces[k].at(step));
+  };
+  std::vector<const Surroundings*> then(runs.size());
+  std::vector<StepOutcome> outcomes(runs.size());
+  // The step of this number, or a part of it, of those that need it.
+  const auto advance = [&](int step, double t, double h) {
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      then[k] = Needs(*runs[k], step) ? &runs[k]->rig->At(t + h) : nullptr;
+    fleet->StepGroup(group, h, then, &outcomes);
+    for (std::size_t k = 0; k < runs.size(); ++k)
+      if (then[k] && !outcomes[k].ok)
+        Fail("at t = " + std::to_string(t) + " s: " + outcomes[k].message, runs[k]);
   };
   sample(0);
   double t = start, part = std::ldexp(dt, -kGrading);
-  side.Step(1, t, part);
-  for (t += part; part < dt; t += part, part *= 2) side.Step(1, t, part);
-  for (int step = 1; side.AnyNeeds(step); ++step) {
-    if (step > 1) side.Step(step, start + (step - 1) * dt, dt);
-    if (step % kStepsUnasked == 0 && Stopped(options)) side.Fail(kStopped);
+  advance(1, t, part);
+  for (t += part; part < dt; t += part, part *= 2) advance(1, t, part);
+  const auto any_needs = [&](int step) {
+    return std::any_of(runs.begin(), runs.end(), [&](const Run* run) { return Needs(*run, step); });
+  };
+  for (int step = 1; any_needs(step); ++step) {
+    if (step > 1) advance(step, start + (step - 1) * dt, dt);
+    if (step % kStepsUnasked == 0 && Stopped(options))
+      for (Run* run : runs)
+        if (run->result->ok) Fail(kStopped, run);
     sample(step);
   }
-  for (std::size_t k = 0; k < traces.size(); ++k) {
-    SimulatedRecord& result = *runs[k].result;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    SimulatedRecord& result = *runs[k]->result;
     if (!result.ok) continue;
-    result.values.resize(static_cast<Eigen::Index>(runs[k].times.size()), channels);
+    result.values.resize(static_cast<Eigen::Index>(runs[k]->times.size()), channels);
     for (int c = 0; c < channels; ++c)
-      result.values.col(c) = Shown(experiment, c, runs[k], &traces[k]);
+      result.values.col(c) = Shown(experiment, c, *runs[k], &traces[k]);
+  }
+}
+
+void SimulateMotion(const Experiment& experiment, const SimulationOptions& options,
+                    std::vector<Run>* runs) {
+  std::vector<CableSimulation*> cables;
+  for (Run& run : *runs) {
+    const double duration = run.times.back() - experiment.start_time();
+    run.steps = 1 + std::max(1, static_cast<int>(std::ceil(duration / options.dt - 1e-9)));
+    cables.push_back(run.rig->cable());
+  }
+  CableFleet fleet(cables, 1, LoneCable::kByItself);
+  for (std::size_t group = 0; group < fleet.group_count(); ++group) {
+    std::vector<Run*> members;
+    for (const std::size_t k : fleet.members(group)) members.push_back(&(*runs)[k]);
+    SimulateGroup(experiment, options, members, group, &fleet);
   }
 }
 
@@ -210,23 +170,6 @@ void SimulateStatics(const Experiment& experiment, const SimulationOptions& opti
     }
     result.values.row(i) = row.transpose();
   }
-}
-
-/// Runs that can be stepped side by side: a clamp whose friction and springs are zero is rigid.
-std::vector<std::vector<Run>> GroupsAlike(std::vector<Run> runs) {
-  const auto ends = [](const Run& run) {
-    const rod::RodModel& model = run.rig->rod()->model();
-    return std::pair(model.a.clamped(), model.b.clamped());
-  };
-  std::vector<std::vector<Run>> groups;
-  for (Run& run : runs) {
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<Run>& one) {
-      return ends(one.front()) == ends(run);
-    });
-    if (group == groups.end()) group = groups.insert(groups.end(), std::vector<Run>());
-    group->push_back(std::move(run));
-  }
-  return groups;
 }
 
 }  // namespace
@@ -260,8 +203,7 @@ std::vector<SimulatedRecord> SimulateExperiment(const Experiment& experiment,
     if (experiment.quasi_static())
       for (Run& run : runs) SimulateStatics(experiment, options, &run);
     else
-      for (std::vector<Run>& alike : GroupsAlike(std::move(runs)))
-        SimulateMotion(experiment, options, std::move(alike));
+      SimulateMotion(experiment, options, &runs);
   }
   return results;
 }

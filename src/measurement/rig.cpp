@@ -63,6 +63,7 @@ Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements, R
       path_b_(paths->b.With(specimen.faults.b)),
       tilt_a_(RotationExp(specimen.tilt_a)),
       drift_(DriftOf(specimen.cable)) {
+  specimen_.cable.elements = elements;
   if (drift_ && !experiment.record.t.empty()) {
     const std::vector<double>& t = experiment.record.t;
     const auto& clock = experiment.quasi_static() ? std::nullopt : specimen.faults.clock;
@@ -70,14 +71,12 @@ Rig::Rig(const Experiment& experiment, const Specimen& specimen, int elements, R
     record_begin_ = ends.front();
     record_end_ = ends.back();
   }
-  if (!experiment.load.samples.empty()) {
-    SetLoads(experiment.start_time());
-  }
+  if (!experiment.load.samples.empty())
+    now_.load = &load_.emplace(experiment.load, specimen.cable.length);
 }
 
 rod::RodModel Rig::Model(Turn b) const {
   rod::RodModel model = MakeRodModel(specimen_.cable, experiment_.gravity_W);
-  model.elements = elements_;
   Release(experiment_.a, &model.a);
   switch (experiment_.b.kind) {
     case EndCondition::Kind::kClamp:
@@ -108,56 +107,31 @@ rod::Rod Rig::WithSlidesHeld() const {
     if (end->translation != std::array{false, false, false}) end->translation = {true, true, true};
   rod::Rod held(model);
   std::vector<Pose> nodes(elements_ + 1);
-  for (int i = 0; i <= elements_; ++i) nodes[i] = rod_->pose(i);
+  for (int i = 0; i <= elements_; ++i) nodes[i] = rod().pose(i);
+  held.SetTime(rod().time());
   held.SetConfiguration(nodes);
   // Where the ends are along what lets them slide; turned as the clamps are.
-  held.SetClamps({nodes.front().p, a_.q}, {nodes.back().p, b_.q});
+  held.SetClamps({nodes.front().p, now_.a.X.q}, {nodes.back().p, now_.b.X.q});
   return held;
 }
 
 Pose Rig::TiltedA(const Pose& X_WC) const { return {X_WC.p, (X_WC.q * tilt_a_).normalized()}; }
 
-void Rig::SetLoads(double t) {
-  const ExperimentLoad& load = experiment_.load;
-  std::vector<rod::PointLoad> now;
-  if (load.file.empty()) {
-    for (const ExperimentLoad::Sample& sample : load.samples)
-      now.push_back({sample.s, sample.force_W, Vector3d::Zero(), false});
-  } else {
-    // Samples of one time are forces at several points: the i-th goes over into the i-th.
-    const auto after = std::upper_bound(
-        load.samples.begin(), load.samples.end(), t,
-        [](double time, const ExperimentLoad::Sample& sample) { return time < sample.t; });
-    const auto first_at = [&](double time) {
-      return std::lower_bound(
-          load.samples.begin(), load.samples.end(), time,
-          [](const ExperimentLoad::Sample& sample, double limit) { return sample.t < limit; });
-    };
-    auto left = after == load.samples.begin() ? after : first_at((after - 1)->t);
-    auto right = after == load.samples.end() ? left : after;
-    const double from = left->t, to = right->t;
-    const double x = to > from ? std::clamp((t - from) / (to - from), 0.0, 1.0) : 0.0;
-    for (; left != load.samples.end() && left->t == from; ++left) {
-      const bool paired = right != load.samples.end() && right->t == to;
-      const ExperimentLoad::Sample& next = paired ? *right++ : *left;
-      now.push_back({left->s + x * (next.s - left->s),
-                     left->force_W + x * (next.force_W - left->force_W), Vector3d::Zero(), false});
-    }
-  }
-  if (loads_)
-    loads_->loads = std::move(now);
-  else
-    loads_.emplace(specimen_.cable.length, std::move(now));
+Motion Rig::TiltedA(Motion motion) const {
+  motion.X = TiltedA(motion.X);
+  motion.omega = tilt_a_.conjugate() * motion.omega;
+  motion.alpha = tilt_a_.conjugate() * motion.alpha;
+  return motion;
 }
 
 bool Rig::SettleNear(const std::vector<Pose>& near, rod::Rod* rod) {
   if (near.size() < 2) return false;
   const std::vector<Pose> nodes = Resampled(near, elements_);
   rod->SetConfiguration(nodes);
-  const Pose b = experiment_.b.kind == EndCondition::Kind::kClamp ? b_ : nodes.back();
-  rod->SetClamps(a_, b);
+  const Pose b = experiment_.b.kind == EndCondition::Kind::kClamp ? now_.b.X : nodes.back();
+  rod->SetClamps(now_.a.X, b);
   if (!rod->EquilibrateNearby(load()).converged) return false;
-  b_ = b;
+  now_.b.X = b;
   return true;
 }
 
@@ -170,16 +144,16 @@ bool Rig::Settle(const std::vector<Pose>* near_rest, rod::Rod* rod, std::string*
   };
   const EndCondition& b = experiment_.b;
   if (b.kind == EndCondition::Kind::kClamp) {
-    rod->SetConfiguration(
-        rod::BowedShape(a_, b_, specimen_.cable.length, elements_, experiment_.gravity_W));
+    rod->SetConfiguration(rod::BowedShape(now_.a.X, now_.b.X, specimen_.cable.length, elements_,
+                                          experiment_.gravity_W));
   } else {
     // Unstressed about its axis: what the end is turned by counts from there.
-    std::vector<Pose> straight = rod::StraightShape(a_, specimen_.cable.length, elements_);
+    std::vector<Pose> straight = rod::StraightShape(now_.a.X, specimen_.cable.length, elements_);
     const double twist = rod->model().section.kappa0.z() * specimen_.cable.length;
     for (int i = 0; twist != 0 && i <= elements_; ++i)
       straight[i].q = straight[i].q * RotationExp(Vector3d(0, 0, twist * i / elements_));
     rod->SetConfiguration(straight);
-    b_ = rod->pose(elements_);
+    now_.b.X = rod->pose(elements_);
   }
   if (!equilibrate()) return false;
   if (const auto& near = experiment_.start.near) {
@@ -196,9 +170,8 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   const double t = experiment_.start_time();
   const bool statics = experiment_.quasi_static();
   const StartCondition& start = experiment_.start;
-  a_ = TiltedA(statics ? path_a_->AtStep(0) : path_a_->At(t).X);
-  b_ = statics ? path_b_->AtStep(0) : path_b_->At(t).X;
-  if (!experiment_.load.samples.empty()) SetLoads(t);
+  now_.a = TiltedA(statics ? Motion::Resting(path_a_->AtStep(0)) : path_a_->At(t));
+  now_.b = statics ? Motion::Resting(path_b_->AtStep(0)) : path_b_->At(t);
 
   // End b is held about its axis until it is let go.
   const bool twisted = start.kind == StartCondition::Kind::kTwisted;
@@ -207,6 +180,7 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   // found apart, at other numbers of elements, are then one.
   if (!at_rest.b.rotation[2]) at_rest.a.rotation[2] = true;
   rod::Rod settling(at_rest);
+  settling.SetTime(t);
   // An end that is held about its axis is held where this cable has it, not a cable like it.
   if (!Settle(twisted ? nullptr : near, &settling, message)) return false;
   rest_.resize(elements_ + 1);
@@ -221,7 +195,8 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
         std::max(1, static_cast<int>(std::ceil(std::abs(start.twisted) / kTwistStride)));
     for (int k = 1; k <= strides; ++k) {
       const double angle = start.twisted * k / strides;
-      settling.SetClamps(a_, {rest.p, rest.q * RotationExp(Vector3d(0, 0, angle)).normalized()});
+      settling.SetClamps(now_.a.X,
+                         {rest.p, rest.q * RotationExp(Vector3d(0, 0, angle)).normalized()});
       if (!settling.Equilibrate(load()).converged) {
         *message = "no static equilibrium found with the disc held at its angle";
         return false;
@@ -233,50 +208,51 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
   for (int i = 0; i <= elements_; ++i) nodes[i] = settling.pose(i);
   const bool swings = !specimen_.swing.rotation.empty();
   const rod::RodModel model = Model(Turn::kFree);
-  const Eigen::Matrix3d R_b = b_.q.toRotationMatrix();
+  const Eigen::Matrix3d R_b = now_.b.X.q.toRotationMatrix();
   Vector3d along;
   for (int k = 0; k < 3; ++k) along[k] = model.b.translation[k];
   const SwungShape swung(nodes, specimen_.cable.length, specimen_.swing,
                          R_b * along.asDiagonal() * R_b.transpose());
   if (swings) nodes = swung.Nodes();
-  if (experiment_.b.kind != EndCondition::Kind::kClamp) b_ = nodes.back();
-  section_ = model.section;
-  rod_ = std::make_unique<rod::Rod>(model);
-  rod_->SetTime(t);
-  rod_->SetConfiguration(nodes);
-  rod_->SetClamps(a_, b_);
+  if (experiment_.b.kind != EndCondition::Kind::kClamp) now_.b.X = nodes.back();
+  first_section_ = model.section;
+  rod::Rod rod(model);
+  rod.SetTime(t);
+  rod.SetConfiguration(nodes);
+  rod.SetClamps(now_.a.X, now_.b.X);
   if (swings) {
     std::vector<Vector3d> v, omega;
     swung.Velocities(&v, &omega);
-    rod_->SetVelocities(v, omega);
+    rod.SetVelocities(v, omega);
   }
-  if (!statics && path_a_->moves()) {
-    Motion motion = path_a_->At(t);
-    motion.X = a_;
-    rod_->AddRigidMotion(motion);
-  }
+  if (path_a_->moves() && !statics) rod.AddRigidMotion(now_.a);
+  if (statics)
+    rod_.emplace(std::move(rod));
+  else
+    cable_ = std::make_unique<CableSimulation>(specimen_.cable, std::move(rod), now_);
   return true;
 }
 
-void Rig::ApplyDrift(double t) {
-  if (!drift_ || !(record_end_ > record_begin_)) return;
+const rod::Section* Rig::DriftedTo(double t) {
+  if (!drift_ || !(record_end_ > record_begin_)) return nullptr;
   const double part = std::clamp((t - record_begin_) / (record_end_ - record_begin_), 0.0, 1.0);
-  rod_->SetSection(Drifted(section_, *drift_, part));
+  section_ = Drifted(first_section_, *drift_, part);
+  return &section_;
 }
 
-void Rig::MoveTo(double t) {
-  ApplyDrift(t);
-  if (path_a_->moves()) a_ = TiltedA(path_a_->At(t).X);
-  if (path_b_->moves()) b_ = path_b_->At(t).X;
-  if (!experiment_.load.file.empty()) SetLoads(t);
+const Surroundings& Rig::At(double t) {
+  if (path_a_->moves()) now_.a = TiltedA(path_a_->At(t));
+  if (path_b_->moves()) now_.b = path_b_->At(t);
+  now_.section = DriftedTo(t);
+  return now_;
 }
 
 bool Rig::Equilibrate(int step, std::string* message) {
-  a_ = TiltedA(path_a_->AtStep(step));
-  if (path_b_->moves()) b_ = path_b_->AtStep(step);
-  if (!experiment_.load.file.empty()) SetLoads(step);
-  ApplyDrift(step);
-  rod_->SetClamps(a_, b_);
+  now_.a.X = TiltedA(path_a_->AtStep(step));
+  if (path_b_->moves()) now_.b.X = path_b_->AtStep(step);
+  if (const rod::Section* section = DriftedTo(step)) rod_->SetSection(*section);
+  rod_->SetTime(step);
+  rod_->SetClamps(now_.a.X, now_.b.X);
   // Slowly from step to step: what a friction carries at one is where the next begins.
   if (rod_->EquilibrateWithHistory(load()).converged) return true;
   *message = "no static equilibrium found at step " + std::to_string(step);
