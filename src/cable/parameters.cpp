@@ -99,10 +99,13 @@ bool GivesOwn(const Own& own, const CableKeys& keys) {
 }
 
 void SetPair(int which, double value, Pair* both) {
-  if (which >= 0)
+  if (which >= 0) {
     (*both)[static_cast<std::size_t>(which)] = value;
-  else
-    *both = {value, value * (*both)[1] / (*both)[0]};
+    return;
+  }
+  // Of two that are equal, exactly one: they stay so to the last bit.
+  const double ratio = (*both)[1] / (*both)[0];
+  *both = {value, value * ratio};
 }
 
 void SetPair(int which, double value, DampingPair* both) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
 
 namespace cosserat_cable {
 namespace {
@@ -95,6 +96,23 @@ TEST(Parameters, OfBothDirectionsKeepTheirRatio) {
   EXPECT_EQ(GetParameter("extensions.maxwell[1].EI2", keys), 0.002);
   SetParameter("eta_GJ", 1e-4, &keys);
   EXPECT_FALSE(IsUnknownParameter("eta_GJ", keys));
+}
+
+TEST(Parameters, OfARoundCableStayEqualToTheLastBit) {
+  // A cable whose EI1 and EI2 differ by rounding cannot have an anisotropy.
+  CableKeys keys = Keys(
+      "{length: 0.2, diameter: 0.008, mass_per_length: 0.09, EI: 0.012, GJ: 0.009, eta_EI: 2.0e-4, "
+      "eta_GJ: 1.0e-4}");
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> factor(0.5, 2);
+  for (int i = 0; i < 1000; ++i) {
+    const double EI = 0.012 * factor(random), eta = 2e-4 * factor(random);
+    SetParameter("EI", EI, &keys);
+    SetParameter("eta_EI", eta, &keys);
+    ASSERT_EQ(GetParameter("EI1", keys), EI);
+    ASSERT_EQ(GetParameter("EI2", keys), EI);
+    ASSERT_EQ(GetParameter("eta_EI2", keys), eta);
+  }
 }
 
 TEST(Parameters, ThatAreSetMakeTheirEntry) {
