@@ -147,9 +147,9 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
     if (promise != promises_.end() && plain.excess() > 0)
       candidate.promise = std::min(1.0, promise->second / plain.excess());
     candidate.rejected =
-        promise == promises_.end()
+        failures_.count(cause.name) ? "it cannot be simulated: " + failures_.at(cause.name)
+        : promise == promises_.end()
             ? "no record of this set shows it, or nothing of this kind can be simulated here"
-        : failures_.count(cause.name) ? "its fit cannot be simulated: " + failures_.at(cause.name)
         : OutOfTime() && !tried_.count(cause.name)
             ? "not fitted: the time limit was reached"
             : "not fitted: to first order it explains " +

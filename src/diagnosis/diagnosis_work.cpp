@@ -219,13 +219,18 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
     for (TrialComponent& component : trial.components)
       if (const auto size = sizes_.find(NameOf(trial, component)); size != sizes_.end())
         component.size = size->second;
-  std::vector<Screened> screened = Screen(*base.problem, base.point, std::move(trials));
+  std::map<std::string, std::string> failures;
+  std::vector<Screened> screened = Screen(*base.problem, base.point, std::move(trials), &failures);
   for (const Screened& one : screened)
     for (const TrialComponent& component : one.trial.components)
       sizes_[NameOf(one.trial, component)] = component.size;
-  if (base.trials.empty())
-    for (const Screened& one : screened)
+  if (base.trials.empty()) {
+    for (const Screened& one : screened) {
       promises_[one.trial.cause] = std::max(promises_[one.trial.cause], one.drop);
+      failures.erase(one.trial.cause);
+    }
+    failures_ = failures;
+  }
   Charge(stage, base.problem->count() - before);
   return screened;
 }

@@ -104,7 +104,8 @@ double LargestDrop(const Eigen::MatrixXd& gram, const Eigen::VectorXd& gradient,
 }  // namespace
 
 std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
-                             std::vector<Trial> trials) {
+                             std::vector<Trial> trials,
+                             std::map<std::string, std::string>* failures) {
   std::vector<Column> columns;
   for (std::size_t t = 0; t < trials.size(); ++t)
     for (std::size_t c = 0; c < trials[t].components.size(); ++c)
@@ -124,6 +125,8 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
       Column& column = columns[todo[i]];
       TrialComponent& component = trials[column.trial].components[column.component];
       double& size = component.size;
+      if (!found[i].ok && failures && (round == kRescaled || !component.grows()))
+        (*failures)[trials[column.trial].cause] = found[i].message;
       if (!found[i].ok && !component.grows()) continue;
       if (!found[i].ok) {
         // Too much of it may be what cannot be simulated.

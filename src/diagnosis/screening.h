@@ -2,6 +2,8 @@
 // nothing.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "goodness.h"
@@ -17,8 +19,10 @@ struct Screened {
 /// One simulation per component at the point, its size such that it moves the records by half of
 /// their noise, and the score test of the components together: their derivatives less what the
 /// point's own unknowns can do as well. Hypotheses that cannot be simulated or that no record shows
-/// are left out. The most promising come first.
+/// are left out. The most promising come first. `failures`, where it is given: by cause, why one
+/// that could not be simulated could not.
 std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
-                             std::vector<Trial> trials);
+                             std::vector<Trial> trials,
+                             std::map<std::string, std::string>* failures = nullptr);
 
 }  // namespace cosserat_cable
