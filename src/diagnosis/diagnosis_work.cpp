@@ -16,6 +16,8 @@ constexpr int kIterations = 8, kMoreIterations = 20, kContinued = 3;
 // Part of a cause's best promise above which another start of it is fitted too, and how many.
 constexpr double kAsPromising = 0.6;
 constexpr int kStarts = 2;
+// The part of the misfit that is nearly all of it.
+constexpr double kNearlyAll = 0.9;
 // The part of the misfit that a rival of a cause that leaves just noise must promise.
 constexpr double kRivalPromise = 0.03;
 // Of the best's sum of squares: what a rival may leave beyond, to be one.
@@ -309,14 +311,33 @@ bool DiagnosisWork::IsExplained(const std::string& name, const FittedTrial* besi
   });
 }
 
-void DiagnosisWork::Keep(std::unique_ptr<FittedTrial> model) {
+bool DiagnosisWork::Keep(std::unique_ptr<FittedTrial> model) {
   const std::vector<std::string> causes = model->causes();
   for (auto& one : models_) {
     if (one->causes() != causes) continue;
-    if (model->point.cost < one->point.cost) one = std::move(model);
-    return;
+    const bool better = model->point.cost < one->point.cost;
+    if (better) one = std::move(model);
+    return better;
   }
   models_.push_back(std::move(model));
+  return true;
+}
+
+bool DiagnosisWork::HasEnded(const FittedTrial& model) const {
+  return model.point.at_minimum && !(model.held && !model.IsFar());
+}
+
+/// To its end.
+void DiagnosisWork::GoOn(FittedTrial* model) {
+  if (OutOfTime() || !Tell("going on with " + model->causes().front(), 0)) return;
+  const SimulationCount before = model->problem->count();
+  model->problem->SetMaxIterations(kMoreIterations);
+  model->problem->SetAim(Aim());
+  model->held = model->IsFar();
+  if (!model->held) model->problem->SetHeld({});
+  FitPoint point = model->problem->FitFrom(model->point);
+  Charge("candidates", model->problem->count() - before);
+  if (point.ok && !point.interrupted) model->point = std::move(point);
 }
 
 void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside,
@@ -357,10 +378,14 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
       std::unique_ptr<FittedTrial> fitted = FitOneOrFromTheSet(trials, from);
       if (!fitted) continue;
       Charge(stage, fitted->problem->count());
-      if (fitted->point.ok && !fitted->point.interrupted)
-        Keep(std::move(fitted));
-      else if (!beside)
+      if (fitted->point.ok && !fitted->point.interrupted) {
+        FittedTrial* model = fitted.get();
+        // What explains nearly all is worth its end at once: the others may be spared then.
+        if (Keep(std::move(fitted)) && ShareOf(*model) > kNearlyAll && !HasEnded(*model))
+          GoOn(model);
+      } else if (!beside) {
         failures_[name] = fitted->point.message;
+      }
     }
     ++done;
   }
@@ -373,24 +398,14 @@ void DiagnosisWork::Continue(double part) {
   const double aim = Aim();
   for (auto& model : models_) {
     const bool is_far = aim > 0 && model->point.cost > kFarFromAim * aim;
-    const bool ended = model->point.at_minimum && !(model->held && !model->IsFar());
-    if (!model->trials.empty() && !ended && !is_far) open.push_back(model.get());
+    if (!model->trials.empty() && !HasEnded(*model) && !is_far) open.push_back(model.get());
   }
   std::sort(open.begin(), open.end(), [](const FittedTrial* a, const FittedTrial* b) {
     return a->point.cost < b->point.cost;
   });
   if (open.size() > kContinued) open.resize(kContinued);
-  for (FittedTrial* model : open) {
-    if (OutOfTime() || !Tell("going on with " + model->causes().front(), part)) return;
-    const SimulationCount before = model->problem->count();
-    model->problem->SetMaxIterations(kMoreIterations);
-    model->problem->SetAim(aim);
-    model->held = model->IsFar();
-    if (!model->held) model->problem->SetHeld({});
-    FitPoint point = model->problem->FitFrom(model->point);
-    Charge("candidates", model->problem->count() - before);
-    if (point.ok && !point.interrupted) model->point = std::move(point);
-  }
+  if (!Tell("going on with the best", part)) return;
+  for (FittedTrial* model : open) GoOn(model);
   FindCorrelations();
 }
 
@@ -496,12 +511,14 @@ bool DiagnosisWork::LeavesNothing(int i) const {
   return adequacy.excess() < std::max(kNothing * adequacy.expected, 2 * adequacy.sd);
 }
 
-double DiagnosisWork::ShareOfBest() const {
+double DiagnosisWork::ShareOf(const FittedTrial& model) const {
   const Adequacy plain = AdequacyOf(models_.front()->point, noise_);
+  return (plain.chi2 - AdequacyOf(model.point, noise_).chi2) / std::max(plain.excess(), 1.0);
+}
+
+double DiagnosisWork::ShareOfBest() const {
   double share = 0;
-  for (const auto& model : models_)
-    share = std::max(share, (plain.chi2 - AdequacyOf(model->point, noise_).chi2) /
-                                std::max(plain.excess(), 1.0));
+  for (const auto& model : models_) share = std::max(share, ShareOf(*model));
   return share;
 }
 

@@ -89,7 +89,11 @@ class DiagnosisWork {
                                       const Also& also = {});
   std::unique_ptr<FittedTrial> FitOneOrFromTheSet(const std::vector<Trial>& trials,
                                                   const FittedTrial& from);
-  void Keep(std::unique_ptr<FittedTrial> model);
+  /// The better one of this and of what there is with its causes. @return whether it is this
+  bool Keep(std::unique_ptr<FittedTrial> model);
+  double ShareOf(const FittedTrial& model) const;
+  bool HasEnded(const FittedTrial& model) const;
+  void GoOn(FittedTrial* model);
   bool IsExplained() const;
   bool IsExplained(const std::string& name, const FittedTrial* beside) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
