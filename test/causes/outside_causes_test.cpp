@@ -15,6 +15,7 @@
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/ringing.h"
 #include "rod/rod_cases.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable {
 namespace {
@@ -345,7 +346,9 @@ TEST(ExternalDamping, DecaysAsItsRateWhateverTheMode) {
       ASSERT_TRUE(swinging.Step(dt, kClamp, kClamp).converged);
       tip.push_back(swinging.pose(swinging.elements()).p[axis]);
     }
-    EXPECT_NEAR(rod::Listen(tip, dt).delta, 0.5 * kRate, kOfMotion * 0.5 * kRate) << n;
+    Validate({"Causes", "external_damping: decay of bending mode " + Shown(n / 2 + 1) + " [1/s]",
+              "c/2, whatever the mode", 0.5 * kRate, rod::Listen(tip, dt).delta,
+              kOfMotion * 0.5 * kRate, swinging.elements(), dt});
   }
 }
 
@@ -395,7 +398,9 @@ TEST(AirDrag, MakesOneOverTheAmplitudeGrowLinearly) {
   const auto slope = [&](std::size_t i, std::size_t j) {
     return (inverse[j] - inverse[i]) / (times[j] - times[i]);
   };
-  EXPECT_NEAR(slope(0, last), expected, kRelative * expected);
+  Validate({"Causes", "air_drag: growth of 1/amplitude [1/(m s)]",
+            "4/(3 pi) beta w, averaged over a cycle", expected, slope(0, last),
+            kRelative * expected, rod.elements(), dt});
   EXPECT_NEAR(slope(0, middle), slope(middle, last), 2 * kRelative * expected) << "it is a line";
 }
 
@@ -424,7 +429,9 @@ TEST(AddedMass, SwingsAtTheTipAsRayleighSays) {
   const rod::Rod rod =
       Straight(Cantilever(Specimen({{"added_mass", {{{"s", kLength}, {"mass", kMass}}}}}, 0)));
   const double w = std::sqrt(3 * kEI / (std::pow(kLength, 3) * (kMass + 0.2357 * kRhoA * kLength)));
-  EXPECT_NEAR(rod::FindModes(rod, 1).front().w, w, kRelative * w);
+  Validate({"Causes", "added_mass: w of a cantilever with a mass at its tip [rad/s]",
+            "Rayleigh, 3 EI/(L^3 (m + 0.2357 rhoA L))", w, rod::FindModes(rod, 1).front().w,
+            kRelative * w, rod.elements()});
 }
 
 TEST(AddedMass, LowersAFrequencyByItsPlaceInTheMode) {
@@ -436,7 +443,9 @@ TEST(AddedMass, LowersAFrequencyByItsPlaceInTheMode) {
         Cantilever(Specimen({{"added_mass", {{{"s", x * kLength}, {"mass", kMass}}}}}, 0)));
     const double phi = rod::CantileverMode(x);  // of which the mean square is 1
     const double shift = kMass * phi * phi / (2 * kRhoA * kLength);
-    EXPECT_NEAR(1 - rod::FindModes(rod, 1).front().w / plain, shift, kRelative * shift) << x;
+    Validate({"Causes", "added_mass: shift of w by a small mass at " + Shown(x) + " L, relative",
+              "Rayleigh, m phi^2/(2 rhoA L mean phi^2)", shift,
+              1 - rod::FindModes(rod, 1).front().w / plain, kRelative * shift, rod.elements()});
   }
 }
 
@@ -474,6 +483,7 @@ TEST_F(OnAPeg, ItIsPushedBackAsABeamIs) {
                                                 return without;
                                               }()));
   const double onset = kAway / Compliance(cable.GA1);
+  std::vector<double> pulls, pushes;
   for (const double of_onset : {0.5, 0.9, 2.0, 4.0}) {
     const double P = of_onset * onset;
     const rod::PointLoads pull(kLength, {{kLength, {P, 0, 0}}});
@@ -483,8 +493,16 @@ TEST_F(OnAPeg, ItIsPushedBackAsABeamIs) {
     if (of_onset < 1)
       EXPECT_EQ(rod.pose(50).p, plain.pose(50).p);
     else
-      EXPECT_NEAR(P + rod.reaction_a().force.x(), R, kRelative * R) << of_onset;
+      Validate({"Causes",
+                "contact: force of a peg at " + Shown(of_onset) + " times the pull of onset [N]",
+                "superposed cantilevers", R, P + rod.reaction_a().force.x(), kRelative * R, 50});
+    pulls.push_back(P);
+    pushes.push_back(P + rod.reaction_a().force.x());
   }
+  // Where the line through the last two begins.
+  const double begins = pulls[2] - pushes[2] * (pulls[3] - pulls[2]) / (pushes[3] - pushes[2]);
+  Validate({"Causes", "contact: pull at which a cantilever reaches a peg [N]", "cantilever", onset,
+            begins, kRelative * onset, 50});
 }
 
 TEST_F(OnAPeg, ThePegGoesWithTheClamp) {

@@ -12,6 +12,7 @@
 #include "cosserat_cable/rod/modes.h"
 #include "cosserat_cable/rod/point_loads.h"
 #include "cosserat_cable/rod/rod.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable {
 namespace {
@@ -46,9 +47,10 @@ rod::Rod Bent(const rod::RodModel& model, const Vector3d& moment) {
 
 // ---- structural_damping -------------------------------------------------------------------------
 
+constexpr int kPerPeriod = 100, kElements = 4;
+
 /// Complex modulus of a short piece without mass to speak of, from the moment that turns one end.
 Complex MeasureModulus(double loss_factor, double frequency, bool twist) {
-  constexpr int kPerPeriod = 100, kElements = 4;
   constexpr double kAngle = 0.02, kShort = 0.02;
   // The branches that matter have forgotten the start; what slower ones still know does not
   // vibrate.
@@ -90,6 +92,11 @@ TEST(StructuralDamping, HasALossFactorThatDoesNotDependOnFrequency) {
         EXPECT_NEAR(modulus.imag() / modulus.real(), loss_factor, kWithin * loss_factor)
             << frequency << " Hz";
         EXPECT_GT(modulus.real(), twist ? kGJ : kEI);
+        if (loss_factor == 0.1 && !twist &&
+            (frequency == 0.5 || frequency == 9 || frequency == 100))
+          Validate({"Causes", "structural_damping: loss factor at " + Shown(frequency) + " Hz",
+                    "definition, E''/E'", loss_factor, modulus.imag() / modulus.real(),
+                    kWithin * loss_factor, kElements, 1 / (frequency * kPerPeriod)});
       }
 }
 
@@ -114,6 +121,9 @@ TEST(StructuralDamping, DampsModesOfAllFrequenciesAlike) {
   for (const rod::Mode& mode : FindModes(rod, 6)) {
     if (std::abs(mode.lambda) > 2 * M_PI * 100) continue;
     EXPECT_NEAR(mode.zeta, 0.5 * kLoss, 0.03 * 0.5 * kLoss) << mode.w;
+    if (seen == 0)
+      Validate({"Causes", "structural_damping: damping ratio of a cantilever at loss factor 0.04",
+                "half the loss factor", 0.5 * kLoss, mode.zeta, 0.03 * 0.5 * kLoss, m.elements});
     ++seen;
   }
   EXPECT_GE(seen, 4);
@@ -138,6 +148,11 @@ TEST(Anisotropy, HasTwoFrequenciesInPlanesThatAreRolled) {
       const double ratio = modes[1].w / modes[0].w, d = std::abs(difference);
       const double expected = std::sqrt((1 + d) / (1 - d));
       EXPECT_NEAR(ratio, expected, kRelative * expected) << roll << " " << difference;
+      if (roll != 0)
+        Validate({"Causes",
+                  "anisotropy: ratio of two frequencies, difference " + Shown(difference) +
+                      ", roll " + Shown(roll),
+                  "sqrt((1 + d)/(1 - d))", expected, ratio, kRelative * expected, 40});
       // The tip of the stiffer mode moves across the axis at `roll`.
       const rod::Mode& about_roll = modes[difference > 0 ? 1 : 0];
       const Vector3d axis(std::cos(roll), std::sin(roll), 0);
@@ -186,6 +201,8 @@ TEST(RestCurvature, AFreeCableIsACircle) {
     const Vector3d expected(0, -(1 - std::cos(angle)) / k, std::sin(angle) / k);
     EXPECT_LT((rod.pose(i).p - expected).norm(), kClose) << i;
   }
+  Validate({"Causes", "rest_curvature: tip of a free cable, across [m]", "circle",
+            -(1 - std::cos(k * kLength)) / k, rod.pose(16).p.y(), kClose, 16});
   EXPECT_LT(rod.elastic_energy(), 1e-15);
 }
 
@@ -203,6 +220,9 @@ TEST(RestCurvature, WithTwistItIsAHelix) {
                               (1 - std::cos(k * s)) / k * n.cross(e3);
     EXPECT_LT((rod.pose(i).p - expected).norm(), 1e-6) << i;  // fourth order in an element's turn
     EXPECT_LT(rod.pose(i).q.angularDistance(RotationExp(s * K0)), 1e-7) << i;
+    if (i == 40)
+      Validate({"Causes", "rest_curvature: tip of a free cable with twist, along [m]", "helix",
+                expected.z(), rod.pose(i).p.z(), 1e-6, 40});
   }
 }
 
@@ -265,7 +285,16 @@ TEST(BendTwistCoupling, OfASmallMomentTheTipTurnsByTheCompliance) {
   for (const Vector3d& direction : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)}) {
     const rod::Rod rod = Bent(model, kMoment * direction);
     const Vector3d turn = kLength * stiffness.inverse() * (kMoment * direction);
-    EXPECT_LT((RotationLog(rod.pose(10).q) - turn).norm(), kRelative * turn.norm() + 1e-10);
+    const Vector3d turned = RotationLog(rod.pose(10).q);
+    EXPECT_LT((turned - turn).norm(), kRelative * turn.norm() + 1e-10);
+    const char* source = "inverse of the 3x3 stiffness";
+    const double within = kRelative * turn.norm() + 1e-10;
+    if (direction.x() == 1)
+      Validate({"Causes", "bend_twist_coupling: twist of the tip by a bending moment [rad]", source,
+                turn.z(), turned.z(), within, 10});
+    if (direction.z() == 1)
+      Validate({"Causes", "bend_twist_coupling: turn of the tip about a2 by a torque [rad]", source,
+                turn.y(), turned.y(), within, 10});
   }
 }
 

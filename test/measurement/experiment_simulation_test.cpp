@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "rigs.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable {
 namespace {
@@ -87,6 +88,16 @@ TEST(ExperimentSimulationTest, ATorsionalPendulumFollowsEquations12And13) {
         0.5 * std::exp(-delta * t) * (std::cos(Omega * t) + delta / Omega * std::sin(Omega * t));
     EXPECT_NEAR(angle[i], expected, kCableInertia * 0.5) << "t = " << t;
   }
+  // From the third to the ninth half swing, at whose ends the angle is extreme.
+  const auto extreme = [&](int n) {
+    const double period = kPi / Omega;
+    const auto first = static_cast<Eigen::Index>((n - 0.5) * period / 1e-3);
+    return angle.segment(first, static_cast<Eigen::Index>(period / 1e-3)).cwiseAbs().maxCoeff();
+  };
+  constexpr double kBetweenSamples = 5e-3;  // 1 ms is 0.06 rad of a swing: 4e-4 of an extreme
+  Validate({"Causes", "clamp_damping: decay of a torsional pendulum by its fixation [1/s]",
+            "source paper, eq. (13)", delta, std::log(extreme(3) / extreme(9)) * Omega / (6 * kPi),
+            kBetweenSamples * delta, Fine().elements, Fine().dt});
 }
 
 TEST(ExperimentSimulationTest, VelocityAndAccelerationAreDerivativesOfThePosition) {

@@ -9,6 +9,7 @@
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/measurement/experiment_simulation.h"
 #include "rigs.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable {
 namespace {
@@ -63,6 +64,30 @@ Eigen::MatrixXd Simulated(const Experiment& experiment, const Faults& faults) {
   return record.values;
 }
 
+/// Instants of the falling and rising zeros of a swing [s], between samples by a straight line.
+std::vector<double> Zeros(const Experiment& experiment, const Eigen::VectorXd& y) {
+  std::vector<double> zeros;
+  const std::vector<double>& t = experiment.record.t;
+  for (Eigen::Index i = 1; i < y.size(); ++i)
+    if (y[i - 1] * y[i] < 0) {
+      const auto k = static_cast<std::size_t>(i);
+      zeros.push_back(t[k - 1] + y[i - 1] / (y[i - 1] - y[i]) * (t[k] - t[k - 1]));
+    }
+  return zeros;
+}
+
+/// Of y(t) = gain sin(kShaker t + phase) and a constant: gain exp(i phase), from `count` samples
+/// that fill a period from `begin` on.
+template <class Function>
+std::complex<double> Response(const Function& y, double begin, int count) {
+  std::complex<double> sum = 0;
+  for (int i = 0; i < count; ++i) {
+    const double t = begin + 2 * kPi / kShaker * i / count;
+    sum += y(t) * std::exp(std::complex<double>(0, -kShaker * t));
+  }
+  return sum * std::complex<double>(0, 2.0 / count);
+}
+
 TEST(Clock, ShiftsThePhaseOfAPendulum) {
   const double J = 2e-6;
   const Experiment experiment = Torsion(J, 0.5, 1.0, 501);
@@ -80,6 +105,19 @@ TEST(Clock, ShiftsThePhaseOfAPendulum) {
         0.5 * std::exp(-delta * t) * (std::cos(Omega * t) + delta / Omega * std::sin(Omega * t));
     EXPECT_NEAR(angle(i, 0), expected, kCableInertia * 0.5) << "t = " << t;
   }
+  // Zeros of the pendulum on the motion's clock and on the record's.
+  constexpr double kZero = 1e-5;  // [s] a straight line for the swing between two samples
+  const std::vector<double> on_motions = Zeros(experiment, Simulated(experiment, {}).col(0)),
+                            on_records = Zeros(experiment, angle.col(0));
+  ASSERT_GE(on_motions.size(), on_records.size());
+  ASSERT_GT(on_records.size(), 10u);
+  const std::size_t last = on_records.size() - 1;
+  const double rate = (on_records[last] - on_records[0]) / (on_motions[last] - on_motions[0]);
+  const char* source = "t_record = (1 + scale) t + delay";
+  Validate({"Causes", "clock: scale, from the zeros of a pendulum", source, 0.03, rate - 1,
+            2 * kZero / on_motions[last], Fine().elements, Fine().dt});
+  Validate({"Causes", "clock: delay, from the zeros of a pendulum [s]", source, 0.004,
+            on_records[0] - 1.03 * on_motions[0], 2 * kZero, Fine().elements, Fine().dt});
 }
 
 TEST(Sensor, TiltAndScaleTurnWhatIsSeenAboutTheOrigin) {
@@ -99,6 +137,10 @@ TEST(Sensor, TiltAndScaleTurnWhatIsSeenAboutTheOrigin) {
     const Vector3d p =
         kMiddle + Vector3d(0, 0, kAmplitude * std::sin(kShaker * experiment.record.t[i]));
     EXPECT_NEAR(seen(i, 0), 1.1 * (R * p).x(), kAmplitude * 1e-6 + kRounding);
+    if (i + 1 == seen.rows())
+      Validate({"Causes", "sensor: x of a point through scale and tilt [m]",
+                "1.1 times the turned position", 1.1 * (R * p).x(), seen(i, 0),
+                kAmplitude * 1e-6 + kRounding, Fine().elements, Fine().dt});
   }
 }
 
@@ -150,6 +192,17 @@ TEST(Sensor, LowPassesASineAsAFirstOrderFilterDoes) {
       EXPECT_NEAR(seen(i, 2), -gain * w * w * std::sin(w * t - lag) + wc * wc * decayed,
                   kAcceleration * kAmplitude * w * std::max(w, wc));
     }
+    if (cutoff != 8) continue;
+    // Over the second period, when the start is forgotten but for exp(-10).
+    constexpr double kForgotten = 1e-4;
+    const std::complex<double> response =
+        Response([&](double t) { return seen(static_cast<Eigen::Index>(std::lround(1e3 * t)), 0); },
+                 0.2, 200);
+    const char* source = "1/(1 + i w tau)";
+    Validate({"Causes", "sensor: gain of a low pass of 8 Hz at 5 Hz", source, gain / kAmplitude,
+              std::abs(response) / kAmplitude, kForgotten, Fine().elements, Fine().dt});
+    Validate({"Causes", "sensor: lag of a low pass of 8 Hz at 5 Hz [rad]", source, lag,
+              -std::arg(response), kForgotten, Fine().elements, Fine().dt});
   }
 }
 
@@ -216,6 +269,10 @@ TEST(BaseMotion, PhaseAdvancesTheDominantFrequency) {
   for (const double t : {0.5, 0.817, 1.2})
     EXPECT_NEAR(path.At(t).X.p.z(), kMiddle.z() + kAmplitude * std::sin(kShaker * t + 0.3),
                 kPeriodogram * kAmplitude);
+  const std::complex<double> response =
+      Response([&](double t) { return path.At(t).X.p.z(); }, 1.0, 200);
+  Validate({"Causes", "base_motion: phase by which a shaken clamp is ahead [rad]",
+            "sin(w t + phase)", 0.3, std::arg(response), kPeriodogram, 0, 1e-3});
 }
 
 TEST(BaseMotion, ABracketResonatesAsItsTransferFunctionSays) {
@@ -245,6 +302,13 @@ TEST(BaseMotion, ABracketResonatesAsItsTransferFunctionSays) {
           RotationLog(Eigen::Quaterniond(Eigen::AngleAxisd(-1.0, Vector3d::UnitX())) * motion.X.q);
       EXPECT_NEAR(turn.z(), 0.2 * y.imag(), kGrid * 0.2);
     }
+    const std::complex<double> response =
+        Response([&](double t) { return path.At(t).X.p.z(); }, 7, 200);
+    if (frequency != 5.5)
+      Validate({"Causes",
+                "base_motion: gain of a bracket of " + Shown(frequency) + " Hz shaken with 5 Hz",
+                "(1 + 2 i zeta r)/(1 - r^2 + 2 i zeta r)", std::abs(H),
+                std::abs(response) / kAmplitude, kGrid * std::abs(H), 0, 1e-3});
     // C2: accelerations on both sides of any instant agree.
     constexpr double kInstant = 1e-7, kChange = 1e-4;
     for (const double t : {0.01, 0.25, 3.0})
@@ -265,18 +329,6 @@ TEST(BaseMotion, TiltTurnsTheClampInItsOwnFrame) {
   EXPECT_LT(path.At(0).X.q.angularDistance(expected), kRounding + 1e-8);
   EXPECT_EQ(path.At(0).X.p, end.pose.p);
   EXPECT_LT(path.AtStep(0).q.angularDistance(expected), kRounding + 1e-8);
-}
-
-/// Instants of the falling and rising zeros of a swing [s], between samples by a straight line.
-std::vector<double> Zeros(const Experiment& experiment, const Eigen::VectorXd& y) {
-  std::vector<double> zeros;
-  const std::vector<double>& t = experiment.record.t;
-  for (Eigen::Index i = 1; i < y.size(); ++i)
-    if (y[i - 1] * y[i] < 0) {
-      const auto k = static_cast<std::size_t>(i);
-      zeros.push_back(t[k - 1] + y[i - 1] / (y[i - 1] - y[i]) * (t[k] - t[k - 1]));
-    }
-  return zeros;
 }
 
 TEST(Drift, MakesAPendulumChirp) {
@@ -306,6 +358,10 @@ TEST(Drift, MakesAPendulumChirp) {
     const double x = 1 + kChange * chirped[n] / kDuration;
     const double phase = Omega * 2 * kDuration / (3 * kChange) * (std::pow(x, 1.5) - 1);
     EXPECT_NEAR(phase, (static_cast<double>(n) + 0.5) * kPi, adiabatic);
+    if (n + 1 == chirped.size())
+      Validate({"Causes", "drift: phase of a pendulum whose GJ grows by 0.3, in the end [rad]",
+                "2 W T/(3 x) ((1 + x t/T)^(3/2) - 1)", (static_cast<double>(n) + 0.5) * kPi, phase,
+                adiabatic, Fine().elements, Fine().dt});
   }
 }
 

@@ -8,6 +8,7 @@
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/ringing.h"
 #include "rod/rod_cases.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -52,13 +53,14 @@ double LoopArea(double kappa, double w) {
   return 4 * kStick / (2 * kSlip * w) * (primitive(high) - primitive(low));
 }
 
+constexpr int kSteps = 400;
+constexpr double kPeriod = 2;  // [s]; the rod's own waves are far above
+
 struct Cycle {
   double top, area, dissipated, resting;  // moment [N m], per length [J/m], and without a loop
 };
 /// Bends a rod uniformly to and fro, slowly, three times; tells of the last.
 Cycle Bend(double amplitude, double spread, double phi) {
-  constexpr int kSteps = 400;
-  constexpr double kPeriod = 2;  // [s]; the rod's own waves are far above
   const RodModel model = FrictionRod(spread);
   Rod rod(model);
   rod.SetConfiguration(StraightShape(Pose{}, kLength, kElements));
@@ -93,6 +95,13 @@ TEST(BendingFrictionTest, ALoopHasTheAreaOfAPrandtlIshlinskiiModel) {
       EXPECT_NEAR(cycle.dissipated, area, within) << spread << " " << amplitude;
       const double top = kEI * amplitude + Backbone(amplitude, spread);
       EXPECT_NEAR(cycle.top, top, 1e-3 * top) << spread << " " << amplitude;
+      if (spread != 0.5 || (amplitude != 1.4 && amplitude != 3)) continue;
+      const std::string at = " at the curvature " + Shown(amplitude) + "/m ";
+      const char* source = "integral of Prandtl and Ishlinskii";
+      Validate({"Causes", "section_friction: loss in a cycle" + at + "[J/m]", source, area,
+                cycle.dissipated, within, kElements, kPeriod / kSteps});
+      Validate({"Causes", "section_friction: moment of first bending" + at + "[N m]", source, top,
+                cycle.top, 1e-3 * top, kElements, kPeriod / kSteps});
     }
 }
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "rod/published_rods.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

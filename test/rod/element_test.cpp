@@ -4,7 +4,7 @@
 #include <random>
 
 #include "../../src/rod/element_tangent.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

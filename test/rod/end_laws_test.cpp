@@ -11,6 +11,7 @@
 #include "cosserat_cable/rod/rod_batch.h"
 #include "rod/ringing.h"
 #include "rod/rod_cases.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -145,7 +146,9 @@ TEST(EndLawTest, ARubbingClampHasTheLoopOfItsAmplitude) {
     if (slipped <= 0)
       EXPECT_NEAR(area, 0, kNoLoop) << amplitude;
     else
-      EXPECT_NEAR(area, 4 * kSlipMoment * slipped, kRelative * area) << amplitude;
+      Validate({"Causes", "clamp_friction: loss in a cycle of " + Shown(amplitude) + " rad [J]",
+                "loop of Jenkins' element in series", 4 * kSlipMoment * slipped, area,
+                kRelative * area, 20});
   }
 }
 
@@ -176,6 +179,10 @@ TEST(EndLawTest, ALooseClampTurnsFreelyAndThenNot) {
   for (const double angle : {0.1, 0.5, 1.0}) {
     const double moment = (angle - kGap) * soft;
     EXPECT_NEAR(MomentAt(angle, axis, &rod), moment, kRelative);
+    if (angle == 0.1)
+      Validate({"Causes", "clamp_play: moment that bends by 0.1 rad [N m]",
+                "springs in series beyond the gap", moment, rod.reaction_b().moment.dot(axis),
+                kRelative, 20});
     EXPECT_NEAR(MomentAt(-angle, axis, &rod), -moment, kRelative);
   }
 }
@@ -241,7 +248,8 @@ TEST(EndLawTest, FrictionTakesTheSameAmplitudeFromEverySwing) {
   ASSERT_GE(peaks.size(), 7u);
   const double drop = 2 * kMoment / kSwungSpring;
   for (int k = 0; k < 7; ++k) EXPECT_NEAR(peaks[k], 0.3 - (k + 1) * drop, kRelative * 0.3) << k;
-  EXPECT_NEAR(peaks[0] - peaks[6], 6 * drop, 0.02 * 6 * drop);
+  Validate({"Causes", "clamp_friction: amplitude lost in a half swing [rad]",
+            "Coulomb, 2 slip_moment/spring", drop, (peaks[0] - peaks[6]) / 6, 0.02 * drop, 8, dt});
   const EnergyBalance balance = pendulum.rod.energy_balance();
   EXPECT_LT(std::abs(balance.Residual()), 5e-3 * balance.dissipated);
   EXPECT_GT(balance.dissipated, 0.2 * 0.5 * kSwungSpring * 0.3 * 0.3);
@@ -255,7 +263,9 @@ TEST(EndLawTest, PlaySlowsSmallSwings) {
     Pendulum pendulum(std::make_shared<ClampPlay>(kGap, kBeyond), 0, amplitude);
     const double period = 2 * M_PI / w + 4 * kGap / (w * (amplitude - kGap));
     const Ringing heard = Listen(pendulum.Swing(5 * 200, period / 200), period / 200);
-    EXPECT_NEAR(2 * M_PI / heard.Omega, period, kRelative * period) << amplitude;
+    Validate({"Causes", "clamp_play: period of swings of " + Shown(amplitude) + " rad [s]",
+              "2 pi/w + 4 gap/(w (A - gap))", period, 2 * M_PI / heard.Omega, kRelative * period, 8,
+              period / 200});
     EXPECT_LT(std::abs(heard.delta) * period, 0.01) << "without loss";
   }
 }

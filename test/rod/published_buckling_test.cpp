@@ -10,7 +10,7 @@
 #include "cosserat_cable/rod/modes.h"
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/rod_cases.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

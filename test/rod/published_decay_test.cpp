@@ -4,7 +4,7 @@
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/ringing.h"
 #include "rod/rod_cases.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

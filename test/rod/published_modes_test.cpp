@@ -6,7 +6,7 @@
 
 #include "cosserat_cable/rod/modes.h"
 #include "rod/published_rods.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "rod/published_rods.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

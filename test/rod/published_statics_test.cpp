@@ -3,7 +3,7 @@
 
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/published_rods.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {

@@ -6,7 +6,7 @@
 #include "cosserat_cable/rod/maxwell.h"
 #include "cosserat_cable/rod/point_loads.h"
 #include "rod/rod_cases.h"
-#include "rod/validation.h"
+#include "tools/validation.h"
 
 namespace cosserat_cable::rod {
 namespace {
@@ -73,14 +73,17 @@ TEST(SectionBranchTest, ComplexModulusIsThatOfAGeneralisedMaxwellSolid) {
       EXPECT_LT(std::abs(measured - expected), kRelative * std::abs(expected))
           << branches.size() << " branches at " << frequency << " Hz";
       if (frequency != 3 && frequency != 100) continue;
-      const std::string name = "section with " + Shown(branches.size()) +
-                               " Maxwell branches, driven at " + Shown(frequency) + " Hz: ";
+      const std::string section = branches.empty() ? "Vibration" : "Causes";
+      const std::string name = (branches.empty()       ? "section of Kelvin and Voigt at "
+                                : branches.size() == 1 ? "maxwell: one branch at "
+                                                       : "maxwell: three branches at ") +
+                               Shown(frequency) + " Hz, ";
       const char* source = "generalised Maxwell solid, complex modulus";
       const double within = kRelative * std::abs(expected), dt = 1 / (200 * frequency);
-      Validate({"Vibration", name + "storage modulus [N m^2]", source, expected.real(),
-                measured.real(), within, kElements, dt});
-      Validate({"Vibration", name + "loss modulus [N m^2]", source, expected.imag(),
-                measured.imag(), within, kElements, dt});
+      Validate({section, name + "storage modulus [N m^2]", source, expected.real(), measured.real(),
+                within, kElements, dt});
+      Validate({section, name + "loss modulus [N m^2]", source, expected.imag(), measured.imag(),
+                within, kElements, dt});
     }
 }
 
@@ -131,9 +134,8 @@ TEST(SectionBranchTest, CreepsBackAfterRelease) {
     const Eigen::Quaterniond q = rod.pose(kElements).q;
     EXPECT_NEAR(2 * std::atan2(q.z(), q.w()), expected, kRelative * expected) << k;
     if (k == 1000)
-      Validate({"Vibration", "creep of a standard linear solid, 0.1 s after release: twist [rad]",
-                "closed form", expected, 2 * std::atan2(q.z(), q.w()), kRelative * expected,
-                kElements, kDt});
+      Validate({"Causes", "maxwell: creep, twist 0.1 s after release [rad]", "closed form",
+                expected, 2 * std::atan2(q.z(), q.w()), kRelative * expected, kElements, kDt});
   }
 }
 

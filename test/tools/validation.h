@@ -1,5 +1,5 @@
-// A published case: what was printed there, what this rod gives. The rows go into the test's XML
-// report, from which scripts/validation makes docs/validation.md.
+// A case with a known answer: what that is, what this package gives. The rows go into the test's
+// XML report, from which scripts/validation makes docs/validation.md.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -8,11 +8,11 @@
 #include <cstdio>
 #include <string>
 
-namespace cosserat_cable::rod {
+namespace cosserat_cable {
 
 struct ValidationRow {
-  std::string section;  ///< of the table: statics, vibration, motion, numerics
-  std::string what;     ///< the case and the quantity, with its unit
+  std::string section;  ///< of the table, as scripts/validation has them
+  std::string what;     ///< the case and the quantity, with its unit; of a cause: "NAME: ..."
   std::string source;   ///< where the target is from
   double target;
   double ours;
@@ -36,8 +36,8 @@ inline void Validate(const ValidationRow& row) {
   char numbers[160];
   std::snprintf(numbers, sizeof(numbers), "|%.9g|%.9g|%.9g|%d|%.9g", row.target, row.ours,
                 row.tolerance, row.elements, row.dt);
-  testing::Test::RecordProperty("validation_" + std::to_string(count++),
-                                row.section + "|" + row.what + "|" + row.source + numbers);
+  ::testing::Test::RecordProperty("validation_" + std::to_string(count++),
+                                  row.section + "|" + row.what + "|" + row.source + numbers);
 }
 
-}  // namespace cosserat_cable::rod
+}  // namespace cosserat_cable
