@@ -1,5 +1,5 @@
-# The target `benchmarks`: the programs that scripts/bench runs. Two of them need Google Benchmark
-# and MuJoCo, and are left out where those are not there.
+# The target `benchmarks`: the programs that scripts/bench and scripts/causes run. Two of them need
+# Google Benchmark and MuJoCo, and are left out where those are not there.
 
 if(NOT TARGET benchmarks)
   add_custom_target(benchmarks)
@@ -20,6 +20,9 @@ string(STRIP "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_${build_type}}" flags)
 target_compile_definitions(rod_steps PRIVATE
   COSSERAT_CABLE_COMPILER="${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}"
   COSSERAT_CABLE_FLAGS="${flags}")
+
+add_bench(cause_steps bench/cause_steps.cpp)
+target_link_libraries(cause_steps cosserat_cable_measurement)
 
 find_package(benchmark QUIET)
 if(benchmark_FOUND)
