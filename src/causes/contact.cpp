@@ -108,7 +108,8 @@ class ObstacleContact final : public rod::Load {
   /// Calls `act` for the sites of elements that may touch.
   template <class Act>
   void ForEachNear(const rod::Centreline& rod, const Placed& placed, const Act& act) const {
-    const ContactSites sites(length_, diameter_, rod.elements());
+    // What it stands in the way of is often the tip of a free end.
+    const ContactSites sites(length_, diameter_, rod.elements(), ContactSites::End::kTip);
     const double reach = 0.5 * (diameter_ + law_.smoothing);
     Vector3d left = ToEigen(rod.position(0));
     for (int e = 0; e < rod.elements(); ++e) {

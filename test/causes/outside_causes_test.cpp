@@ -544,6 +544,25 @@ TEST_F(OnAPeg, VibratesAsABeamThatIsPropped) {
   EXPECT_GT(modes[1].w, 1.5 * plain);
 }
 
+TEST(ContactCause, APlaneMeetsTheTipOfAFreeEnd) {
+  // A plane that leans towards the tip and is 1 mm too near bends the cantilever as a force at its
+  // very end does.
+  constexpr double kDepth = 1e-3, kLean = 0.1;
+  constexpr double kRelative = 5e-3;  // elements; a diameter short of the tip it would be 12 %
+  CableModel cable =
+      Specimen({{"contact",
+                 {{{"plane.azimuth", 0},
+                   {"plane.elevation", -kLean},
+                   {"plane.offset", kDepth - 0.5 * kDiameter - kLength * std::sin(kLean)},
+                   {"stiffness", 1e6}}}}});
+  cable.contact.smoothing = 1e-7;
+  rod::Rod rod = Straight(Cantilever(cable));
+  ASSERT_TRUE(rod.Equilibrate().converged);
+  const double compliance = std::pow(kLength, 3) / (3 * kEI) + kLength / cable.GA1;
+  const double force = kDepth / std::cos(kLean) / compliance;
+  EXPECT_NEAR(-rod.reaction_a().force.x(), force, kRelative * force);
+}
+
 TEST(ContactCause, APlaneHoldsWhatHangsOnIt) {
   // A hose in a U over a floor 5 mm above its lowest point: it lies there, and the clamps carry
   // what the floor does not.
