@@ -17,6 +17,8 @@ constexpr double kBeyondError = 3, kBeyondErrorHeldOut = 2;
 // A law that is right in kind explains this part of the misfit at least, and leaves so many times
 // the noise's variance at most.
 constexpr double kExplained = 0.97, kMostLeft = 6;
+// And somewhat less of it, where no more than half of the noise's variance is left beyond it.
+constexpr double kExplainedOfFaint = 0.95, kNearNoise = 1.5;
 // What a rival leaves beyond the noise, by what the best leaves, where neither leaves just noise.
 constexpr double kFarWorse = 2.5;
 
@@ -181,7 +183,9 @@ bool Contains(const std::vector<std::string>& larger, const std::vector<std::str
 
 bool Explains(const Contender& contender, const Contender& plain) {
   if (contender.adequacy.adequate) return true;
-  return ShareOf(contender, plain) > kExplained && contender.adequacy.times() < kMostLeft;
+  const double share = ShareOf(contender, plain), left = contender.adequacy.times();
+  return (share > kExplained && left < kMostLeft) ||
+         (share > kExplainedOfFaint && left < kNearNoise);
 }
 
 Judgement Judge(const std::vector<Contender>& contenders, const DifferenceBetween& difference,
