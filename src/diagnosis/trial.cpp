@@ -101,7 +101,8 @@ std::vector<std::pair<std::string, double>> TrialComponent::At(double part) cons
   std::vector<std::pair<std::string, double>> values;
   for (const HypothesisNumber& number : numbers) {
     double value = number.times;
-    if (number.role == Role::kSize) value = NeutralOf(number.path) + part * size * number.times;
+    if (number.role == Role::kSize)
+      value = NeutralOf(number.path) + number.origin + part * size * number.times;
     if (number.role == Role::kInverse) value = number.times / (part * size);
     if (const std::optional<Parameter> parameter = FindParameter(number.path))
       value = std::clamp(value, parameter->lower, parameter->upper);

@@ -15,11 +15,11 @@ using Eigen::Vector3d;
 using Role = HypothesisNumber::Role;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr int kStations = 10;   // along the cable
-constexpr int kDirections = 8;  // of planes, around it
-// How far into the motion, from its end to its middle.
-constexpr double kDepths[] = {0.1, 0.4, 0.7};
-constexpr double kPegDepths[] = {0.3, 0.7};
+constexpr int kStations = 10;    // along the cable
+constexpr int kDirections = 12;  // of planes, around it
+// How far into the motion an obstacle reaches first, from its end to its middle: then as far as
+// shows faintly.
+constexpr double kDepth = 0.05;
 constexpr int kPegStations[] = {4, 7, 10};
 constexpr double kPegRadius = 0.003;  // [m]
 
@@ -57,21 +57,23 @@ Trial TrialOf(std::vector<HypothesisNumber> numbers) {
   trial.components.emplace_back();
   trial.components.back().numbers = std::move(numbers);
   trial.components.back().one_sided = true;
+  trial.components.back().size = kDepth;
   return trial;
 }
 
-Trial Plane(const Vector3d& normal, double offset) {
+/// Grows from where it just touches to `reach` beyond.
+Trial Plane(const Vector3d& normal, double touches, double reach) {
   const std::string path = "extensions.contact.plane.";
   return TrialOf({{path + "azimuth", Role::kFree, Azimuth(normal), NumberScale::kOne},
                   {path + "elevation", Role::kFree, Elevation(normal), NumberScale::kOne},
-                  {path + "offset", Role::kFree, offset, NumberScale::kOne}});
+                  {path + "offset", Role::kSize, reach, NumberScale::kOne, touches}});
 }
 
-Trial Peg(const Vector3d& centre, const Vector3d& axis) {
+Trial Peg(const Vector3d& touches, const Vector3d& reach, const Vector3d& axis) {
   const std::string path = "extensions.contact.peg.";
-  return TrialOf({{path + "x", Role::kFree, centre.x(), NumberScale::kOne},
-                  {path + "y", Role::kFree, centre.y(), NumberScale::kOne},
-                  {path + "z", Role::kFree, centre.z(), NumberScale::kOne},
+  return TrialOf({{path + "x", Role::kSize, reach.x(), NumberScale::kOne, touches.x()},
+                  {path + "y", Role::kSize, reach.y(), NumberScale::kOne, touches.y()},
+                  {path + "z", Role::kSize, reach.z(), NumberScale::kOne, touches.z()},
                   {path + "azimuth", Role::kHeld, Azimuth(axis), NumberScale::kOne},
                   {path + "elevation", Role::kHeld, Elevation(axis), NumberScale::kOne},
                   {path + "radius", Role::kHeld, kPegRadius, NumberScale::kOne}});
@@ -90,8 +92,7 @@ void AddPlanes(const std::vector<Sweep>& sweeps, std::vector<Trial>* trials) {
     const auto middle = along.begin() + static_cast<std::ptrdiff_t>(along.size() / 2);
     std::nth_element(along.begin(), middle, along.end());
     const double half = *middle, least = *std::min_element(along.begin(), along.end());
-    for (const double depth : kDepths)
-      trials->push_back(Plane(normal, least + depth * (half - least)));
+    trials->push_back(Plane(normal, least, half - least));
   }
 }
 
@@ -109,10 +110,9 @@ void AddPegs(const Sweep& sweep, std::vector<Trial>* trials) {
     if (!axis.allFinite()) continue;
     for (const double side : {1.0, -1.0}) {
       const double farthest = (side * (about * direction)).maxCoeff();
-      for (const double depth : kPegDepths)
-        trials->push_back(
-            Peg(mean + side * (depth * farthest + 0.5 * sweep.diameter + kPegRadius) * direction,
-                axis));
+      trials->push_back(
+          Peg(mean + side * (farthest + 0.5 * sweep.diameter + kPegRadius) * direction,
+              -side * farthest * direction, axis));
     }
   }
 }

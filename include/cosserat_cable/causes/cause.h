@@ -43,6 +43,8 @@ struct HypothesisNumber {
   Role role = Role::kSize;
   double times = 1;
   NumberScale scale = NumberScale::kTypical;
+  /// Where a size begins to act whose number has no neutral value: an obstacle's place.
+  double origin = 0;
 };
 
 /// One way in which a cause may be at work.
