@@ -9,7 +9,7 @@ namespace cosserat_cable {
 namespace {
 
 // Causes that are fitted alone, and together with the best.
-constexpr int kMostCandidates = 10, kMostPairs = 3, kAll = 19;
+constexpr int kFirstCandidates = 4, kMostCandidates = 10, kMostPairs = 3, kAll = 19;
 // How many single causes pairs are begun from.
 constexpr std::size_t kPairsFrom = 2;
 // Part of the misfit that a first cause explains from which a second is looked for at once, before
@@ -57,7 +57,9 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
   DiagnosisWork work(set, options);
   if (!work.FitBaseline(problems)) return work.Failed();
   const std::vector<Screened> screened = work.ScreenAround(work.baseline(), "screening");
-  work.FitCandidates(screened, nullptr, kMostCandidates, 0.25);
+  work.FitCandidates(screened, nullptr, kFirstCandidates, 0.25);
+  work.FitPromisingPairs(screened, 0.3);
+  work.FitCandidates(screened, nullptr, kMostCandidates, 0.32);
   work.FitFromSimpler();
   work.Continue(0.4);
   work.RefineBest();

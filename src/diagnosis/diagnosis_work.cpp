@@ -16,6 +16,10 @@ constexpr int kIterations = 8, kMoreIterations = 20, kContinued = 3;
 // Part of a cause's best promise above which another start of it is fitted too, and how many.
 constexpr double kAsPromising = 0.6;
 constexpr int kStarts = 2;
+// Of what the best single cause promises to leave, what a pair may leave that is fitted before
+// other single ones; and how many pairs.
+constexpr double kPairLeaves = 0.5;
+constexpr std::size_t kPromisingPairs = 3;
 // The part of the misfit that is nearly all of it.
 constexpr double kNearlyAll = 0.9;
 // The part of the misfit that a rival of a cause that leaves just noise must promise.
@@ -388,6 +392,26 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
       }
     }
     ++done;
+  }
+  FindCorrelations();
+}
+
+void DiagnosisWork::FitPromisingPairs(const std::vector<Screened>& screened, double part) {
+  const double misfit = AdequacyOf(baseline().point, noise_).excess();
+  if (screened.empty() || ShareOfBest() > kNearlyAll) return;
+  const std::vector<ScreenedPair> pairs = ScreenPairs(screened);
+  const double left_by_one = misfit - screened.front().drop;
+  for (std::size_t k = 0; k < std::min(pairs.size(), kPromisingPairs); ++k) {
+    if (misfit - pairs[k].drop > kPairLeaves * left_by_one || IsExplained()) break;
+    const std::vector<Trial> trials = {screened[pairs[k].first].trial,
+                                       screened[pairs[k].second].trial};
+    if (OutOfTime() || !Tell("trying " + trials[0].cause + " and " + trials[1].cause, part)) return;
+    std::unique_ptr<FittedTrial> fitted = FitOne(trials, baseline());
+    if (!fitted) continue;
+    Charge("pairs", fitted->problem->count());
+    if (!fitted->point.ok || fitted->point.interrupted) continue;
+    FittedTrial* model = fitted.get();
+    if (Keep(std::move(fitted)) && ShareOf(*model) > kNearlyAll && !HasEnded(*model)) GoOn(model);
   }
   FindCorrelations();
 }

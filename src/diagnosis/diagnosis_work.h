@@ -48,6 +48,8 @@ class DiagnosisWork {
   /// Fits the most promising causes, one at a time; with `beside`, together with its causes.
   void FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside, int most,
                      double part);
+  /// Fits the two causes together that promise most, where no single one promises nearly as much.
+  void FitPromisingPairs(const std::vector<Screened>& screened, double part);
   void Continue(double part);
   /// Fits causes that contain a simpler one from where that one was found.
   void FitFromSimpler();

@@ -101,6 +101,67 @@ double LargestDrop(const Eigen::MatrixXd& gram, const Eigen::VectorXd& gradient,
   return best;
 }
 
+/// The components of hypotheses, one hypothesis after the other, and what each two share.
+struct Components {
+  explicit Components(const std::vector<const Screened*>& hypotheses) {
+    for (const Screened* one : hypotheses) {
+      first.push_back(static_cast<Eigen::Index>(one_sided.size()));
+      for (const TrialComponent& component : one->trial.components)
+        one_sided.push_back(component.one_sided);
+    }
+    const auto n = static_cast<Eigen::Index>(one_sided.size());
+    first.push_back(n);
+    const Screened& any = *hypotheses.front();
+    Eigen::MatrixXd effects(any.effects.front().size(), n), parts(any.parts.front().size(), n);
+    gradient.resize(n);
+    Eigen::Index k = 0;
+    for (const Screened* one : hypotheses)
+      for (std::size_t i = 0; i < one->effects.size(); ++i, ++k) {
+        effects.col(k) = one->effects[i];
+        parts.col(k) = one->parts[i];
+        gradient[k] = one->gradient[i];
+      }
+    gram = effects.transpose() * effects - parts.transpose() * parts;
+    gram.diagonal() = gram.diagonal().cwiseMax(kOwn * effects.colwise().squaredNorm().transpose());
+  }
+
+  /// The drop of some of the hypotheses together.
+  double DropOf(const std::vector<std::size_t>& hypotheses) const {
+    std::vector<Eigen::Index> which;
+    for (const std::size_t h : hypotheses)
+      for (Eigen::Index i = first[h]; i < first[h + 1]; ++i) which.push_back(i);
+    const auto n = static_cast<Eigen::Index>(which.size());
+    Eigen::MatrixXd part(n, n);
+    Eigen::VectorXd towards(n);
+    std::vector<bool> sides;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Eigen::Index own = which[static_cast<std::size_t>(i)];
+      towards[i] = gradient[own];
+      sides.push_back(one_sided[static_cast<std::size_t>(own)]);
+      for (Eigen::Index k = 0; k < n; ++k)
+        part(i, k) = gram(own, which[static_cast<std::size_t>(k)]);
+    }
+    return LargestDrop(part, towards, sides);
+  }
+
+  std::vector<Eigen::Index> first;  // component of each hypothesis, and their number
+  std::vector<bool> one_sided;
+  Eigen::MatrixXd gram;
+  Eigen::VectorXd gradient;
+};
+
+/// Of what does not grow: it is there as a whole.
+double DropAsAWhole(const Screened& one) {
+  Eigen::VectorXd effect = one.effects.front(), part = one.parts.front();
+  double gradient = one.gradient.front();
+  for (std::size_t i = 1; i < one.effects.size(); ++i) {
+    effect += one.effects[i];
+    part += one.parts[i];
+    gradient += one.gradient[i];
+  }
+  return std::max(0.0, 2 * gradient - (effect.squaredNorm() - part.squaredNorm()));
+}
+
 }  // namespace
 
 std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
@@ -171,12 +232,10 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
     one.trial = trials[t];
     one.trial.components.clear();
     std::vector<const Column*> shown;
-    std::vector<bool> one_sided;
     for (const Column& column : columns) {
       if (column.trial != t || !column.shown) continue;
       shown.push_back(&column);
       one.trial.components.push_back(trials[t].components[column.component]);
-      one_sided.push_back(one.trial.components.back().one_sided);
     }
     // Without what no record shows, some are the same.
     const bool known = std::any_of(screened.begin(), screened.end(), [&](const Screened& other) {
@@ -184,31 +243,45 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
              other.trial.Values() == one.trial.Values();
     });
     if (shown.empty() || known) continue;
-    const auto n = static_cast<Eigen::Index>(shown.size());
-    std::vector<Eigen::VectorXd> parts;
-    for (const Column* column : shown) parts.push_back(projection.Part(column->effect));
-    Eigen::MatrixXd gram(n, n);
-    Eigen::VectorXd gradient(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      const auto a = static_cast<std::size_t>(i);
-      gradient[i] = shown[a]->effect.dot(residual) - parts[a].dot(residual_part);
-      for (Eigen::Index k = 0; k < n; ++k) {
-        const auto b = static_cast<std::size_t>(k);
-        gram(i, k) = shown[a]->effect.dot(shown[b]->effect) - parts[a].dot(parts[b]);
-      }
-      if (gram(i, i) < kOwn * shown[a]->effect.squaredNorm()) gradient[i] = 0;
-      gram(i, i) = std::max(gram(i, i), kOwn * shown[a]->effect.squaredNorm());
+    for (const Column* column : shown) {
+      one.effects.push_back(column->effect);
+      one.parts.push_back(projection.Part(column->effect));
+      const double whole = column->effect.squaredNorm();
+      const bool own = whole - one.parts.back().squaredNorm() < kOwn * whole;
+      one.gradient.push_back(
+          own ? 0.0 : column->effect.dot(residual) - one.parts.back().dot(residual_part));
     }
-    one.drop = LargestDrop(gram, gradient, one_sided);
-    // What does not grow is there as a whole.
-    if (std::none_of(one.trial.components.begin(), one.trial.components.end(),
-                     [](const TrialComponent& component) { return component.grows(); }))
-      one.drop = std::max(0.0, 2 * gradient.sum() - gram.sum());
+    one.drop = std::any_of(one.trial.components.begin(), one.trial.components.end(),
+                           [](const TrialComponent& component) { return component.grows(); })
+                   ? Components({&one}).DropOf({0})
+                   : DropAsAWhole(one);
     screened.push_back(std::move(one));
   }
   std::stable_sort(screened.begin(), screened.end(),
                    [](const Screened& a, const Screened& b) { return a.drop > b.drop; });
   return screened;
+}
+
+std::vector<ScreenedPair> ScreenPairs(const std::vector<Screened>& screened) {
+  if (screened.empty()) return {};
+  std::vector<const Screened*> all;
+  for (const Screened& one : screened) all.push_back(&one);
+  const Components components(all);
+  std::map<std::pair<std::string, std::string>, ScreenedPair> best;
+  for (std::size_t a = 0; a < screened.size(); ++a)
+    for (std::size_t b = a + 1; b < screened.size(); ++b) {
+      const std::string &first = screened[a].trial.cause, &second = screened[b].trial.cause;
+      if (first == second) continue;
+      const double drop = components.DropOf({a, b});
+      ScreenedPair& known = best[std::minmax(first, second)];
+      if (drop > known.drop) known = {a, b, drop};
+    }
+  std::vector<ScreenedPair> pairs;
+  for (const auto& [causes, pair] : best)
+    if (pair.drop > 0) pairs.push_back(pair);
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const ScreenedPair& a, const ScreenedPair& b) { return a.drop > b.drop; });
+  return pairs;
 }
 
 }  // namespace cosserat_cable
