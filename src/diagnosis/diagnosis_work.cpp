@@ -344,6 +344,13 @@ void DiagnosisWork::GoOn(FittedTrial* model) {
   if (point.ok && !point.interrupted) model->point = std::move(point);
 }
 
+/// What explains nearly all is worth its end at once: the others may be spared then.
+void DiagnosisWork::Finish(FittedTrial* model) {
+  if (ShareOf(*model) < kNearlyAll) return;
+  if (!HasEnded(*model)) GoOn(model);
+  if (!IsExplained() && !OutOfTime()) RefineOne(model);
+}
+
 void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside,
                                   int most, double part) {
   const FittedTrial& from = beside ? *beside : baseline();
@@ -384,9 +391,7 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const F
       Charge(stage, fitted->problem->count());
       if (fitted->point.ok && !fitted->point.interrupted) {
         FittedTrial* model = fitted.get();
-        // What explains nearly all is worth its end at once: the others may be spared then.
-        if (Keep(std::move(fitted)) && ShareOf(*model) > kNearlyAll && !HasEnded(*model))
-          GoOn(model);
+        if (Keep(std::move(fitted))) Finish(model);
       } else if (!beside) {
         failures_[name] = fitted->point.message;
       }
@@ -411,7 +416,7 @@ void DiagnosisWork::FitPromisingPairs(const std::vector<Screened>& screened, dou
     Charge("pairs", fitted->problem->count());
     if (!fitted->point.ok || fitted->point.interrupted) continue;
     FittedTrial* model = fitted.get();
-    if (Keep(std::move(fitted)) && ShareOf(*model) > kNearlyAll && !HasEnded(*model)) GoOn(model);
+    if (Keep(std::move(fitted))) Finish(model);
   }
   FindCorrelations();
 }
@@ -492,6 +497,22 @@ void DiagnosisWork::FitParts() {
   FindCorrelations();
 }
 
+void DiagnosisWork::RefineOne(FittedTrial* model) {
+  if (model->trials.empty() || model->point.cost > kMuchLeft * model->point.samples) return;
+  if (model->refined) return;
+  model->refined = true;
+  const SimulationCount before = model->problem->count();
+  model->problem->SetMaxIterations(kMoreIterations);
+  for (int round = 0; round < kSharper; ++round) {
+    model->problem->Refine(model->point);
+    FitPoint point = model->problem->FitFrom(model->point);
+    if (!point.ok || point.interrupted) break;
+    model->point = std::move(point);
+    if (OutOfTime() || !model->problem->Sharpen(model->point)) break;
+  }
+  Charge("finer steps", model->problem->count() - before);
+}
+
 void DiagnosisWork::RefineBest() {
   std::vector<FittedTrial*> order;
   for (auto& model : models_) order.push_back(model.get());
@@ -501,19 +522,7 @@ void DiagnosisWork::RefineBest() {
   int refined = 0;
   for (FittedTrial* model : order) {
     if (refined++ == kRefined || OutOfTime() || !Tell("finer steps", 0.75)) break;
-    if (model->trials.empty() || model->point.cost > kMuchLeft * model->point.samples) continue;
-    if (model->refined) continue;
-    model->refined = true;
-    const SimulationCount before = model->problem->count();
-    model->problem->SetMaxIterations(kMoreIterations);
-    for (int round = 0; round < kSharper; ++round) {
-      model->problem->Refine(model->point);
-      FitPoint point = model->problem->FitFrom(model->point);
-      if (!point.ok || point.interrupted) break;
-      model->point = std::move(point);
-      if (OutOfTime() || !model->problem->Sharpen(model->point)) break;
-    }
-    Charge("finer steps", model->problem->count() - before);
+    RefineOne(model);
   }
   FindCorrelations();
 }

@@ -96,6 +96,8 @@ class DiagnosisWork {
   double ShareOf(const FittedTrial& model) const;
   bool HasEnded(const FittedTrial& model) const;
   void GoOn(FittedTrial* model);
+  void Finish(FittedTrial* model);
+  void RefineOne(FittedTrial* model);
   bool IsExplained() const;
   bool IsExplained(const std::string& name, const FittedTrial* beside) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
