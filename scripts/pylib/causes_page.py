@@ -110,10 +110,10 @@ Where the two simulations are more than a part in a thousand apart:
   good to 3 %; the fit finds the factor that makes up for the difference.
 - `section_friction`: sixteen thresholds, evenly spread, against twelve at Gauss points.
 - `contact`: `stiffness` is that of one contact point. Here they are no farther apart than the cable's
-  radius (so that their number goes with `elements`, and none is within a diameter of an end); the second
-  simulation has 40 in a length everywhere. Impacts carry that on, and the numbers of the obstacle are
-  not found: the fit ends in a plane that is far too soft, even where it starts from the true numbers.
-  Nor does `cable_diagnose` rely on such a fit alone; it tries planes and pegs in the way of the motion.
+  radius, so that their number goes with `elements`; the second simulation has 40 in a length. Impacts
+  carry that on. A fit that begins with the obstacle in a wrong place, of records that are mostly
+  impacts, ends in another minimum: a plane that is far too soft. `cable_diagnose` begins with obstacles
+  that just touch the motion.
 
 ## The numbers
 
