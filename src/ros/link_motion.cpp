@@ -80,6 +80,19 @@ std::vector<LinkMotion::Step> LinkMotion::Ascend(const std::string& frame) const
   return way;
 }
 
+bool LinkMotion::IsAbove(const std::string& ancestor, const std::string& frame) const {
+  // Edges form no loop, joints do not either, and both together end at the latest with all of them.
+  std::string child = frame;
+  for (std::size_t depth = 0; depth <= edges_.size() + joint_above_.size(); ++depth) {
+    if (child == ancestor) return true;
+    const auto edge = edges_.find(child);
+    const JointModel* joint = JointAbove(child);
+    if (edge == edges_.end() && joint == nullptr) return false;
+    child = edge != edges_.end() ? edge->second.parent : joint->parent;
+  }
+  return true;
+}
+
 void LinkMotion::UpdateTree() {
   relevant_.clear();
   std::set<std::string> roots;
@@ -100,6 +113,12 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
                                            Source source) {
   const auto found = edges_.find(child);
   if (found == edges_.end()) {
+    if (IsAbove(child, parent)) {
+      warnings_.Count("frame '" + child + "' would be above itself",
+                      "'" + parent + " -> " + child + "' by " + ToString(source) +
+                          " closes a loop of frames and is ignored");
+      return nullptr;
+    }
     Edge* edge = &edges_[child];
     edge->parent = parent;
     edge->source = source;

@@ -148,6 +148,8 @@ class LinkMotion {
   const JointModel* JointAbove(const std::string& link) const;
   // The way up from a frame: along edges seen, and along the URDF's joints where none was.
   std::vector<Step> Ascend(const std::string& frame) const;
+  /// Whether a frame is the other or above it, by edges and joints.
+  bool IsAbove(const std::string& ancestor, const std::string& frame) const;
   void UpdateTree();
   double Seconds(std::int64_t time) const { return static_cast<double>(time - epoch_) * 1e-9; }
 
