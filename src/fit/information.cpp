@@ -51,7 +51,9 @@ double WorthKnowing(const Unknowns& unknowns, const Eigen::VectorXd& values,
     if (unknowns.all()[k].damping) all[k] = values[k] / unknowns.all()[k].scale;
   // What of their joint effect this one alone could make.
   const double joint = expected(i, i) > 0 ? std::abs(expected.row(i).dot(all)) / expected(i, i) : 0;
-  return std::max(own, joint);
+  // Nothing is known of a number that is a hundredth of its interval; of none at all, its bound is.
+  constexpr double kMost = 100;
+  return own > 0 ? std::clamp(joint, own, kMost * own) : joint;
 }
 
 std::string WithUnit(const Unknown& u, double value) {
