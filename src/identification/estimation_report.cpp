@@ -122,8 +122,9 @@ void EstimationWork::ReportOtherMinimum() {
   }
   estimation_.warnings.push_back(
       "the minimum is one of several: the records fit as well with " + values +
-      " (sum of squares " + FormatRounded(100 * worse / best.cost, 2) +
-      " % larger). Begin nearer to the cable, or record it another way: faster, longer, or at "
+      " (sum of squares " + FormatRounded(100 * std::abs(worse) / best.cost, 2) + " % " +
+      (worse < 0 ? "smaller" : "larger") +
+      "). Begin nearer to the cable, or record it another way: faster, longer, or at "
       "another length");
 }
 
