@@ -18,6 +18,9 @@ using Eigen::Vector3d;
 
 // A disc is turned to its start in parts of this [rad], so that no element turns too far at once.
 constexpr double kTwistStride = 0.5;
+// How far, in rad, a disc's axis may lean from the one about which it is held; and tries.
+constexpr double kUpright = 1e-8;
+constexpr int kTwistTurns = 20;
 
 // `near` picks one of several equilibria: to be about there, of the length, is enough.
 constexpr double kNear = 1e-3;
@@ -195,11 +198,18 @@ bool Rig::Start(std::string* message, const std::vector<Pose>* near) {
         std::max(1, static_cast<int>(std::ceil(std::abs(start.twisted) / kTwistStride)));
     for (int k = 1; k <= strides; ++k) {
       const double angle = start.twisted * k / strides;
-      settling.SetClamps(now_.a.X,
-                         {rest.p, rest.q * RotationExp(Vector3d(0, 0, angle)).normalized()});
-      if (!settling.Equilibrate(load()).converged) {
-        *message = "no static equilibrium found with the disc held at its angle";
-        return false;
+      Eigen::Quaterniond disc = (rest.q * RotationExp(Vector3d(0, 0, angle))).normalized();
+      // It is turned about its own axis, which leans where the section couples bending to twist.
+      for (int turn = 0; turn < kTwistTurns; ++turn) {
+        settling.SetClamps(now_.a.X, {rest.p, disc});
+        if (!settling.Equilibrate(load()).converged) {
+          *message = "no static equilibrium found with the disc held at its angle";
+          return false;
+        }
+        const Eigen::Quaterniond leaning = settling.pose(elements_).q;
+        const bool upright = disc.angularDistance(leaning) < kUpright;
+        disc = leaning;
+        if (upright) break;
       }
     }
   }

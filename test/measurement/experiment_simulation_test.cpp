@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 
 #include "rigs.h"
 #include "tools/validation.h"
@@ -276,6 +277,36 @@ TEST(ExperimentSimulationTest, AClampThatLetsTheEndTurnHoldsItTwistedUntilTheRel
   EXPECT_NEAR(record.values(0, 0), 1.5, kSolved);
   EXPECT_NEAR(record.values(0, 1), 0.75, kSolved);
   EXPECT_LT(record.values(10, 0), 1.4);
+}
+
+// A moment T a3(L) alone acts on every section of a cable that a disc of no weight is turned on by theta:
+//   i EI w' + T (w - w(L)) = -c sqrt(EI GJ) tau exp(i tau s),  w = x' + i y', tau = theta/L, T = GJ tau
+// to the first order in c; its integral is the end's place.
+TEST(ExperimentSimulationTest, ADiscIsTurnedAboutItsOwnAxisWhereBendingIsCoupledToTwist) {
+  using Complex = std::complex<double>;
+  constexpr double kTheta = 1.0, kCoupling = 1e-3;
+  Experiment experiment = Torsion(1e-4, kTheta, 0.001, 2);
+  experiment.gravity_W.setZero();
+  experiment.a.pose.q.setIdentity();
+  experiment.b.disc.guided = false;
+  Specimen specimen = CableSpecimen();
+  const CableModel& m = specimen.cable;
+  const double L = m.length;
+  experiment.channels = {ChannelAt(L, Quantity::kPosition, 0), ChannelAt(L, Quantity::kPosition, 1)};
+  specimen.cable.extensions = {{"bend_twist_coupling", {{{"c1", kCoupling}, {"c2", 0.0}}}}};
+  const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, Fine()).front();
+  ASSERT_TRUE(record.ok) << record.message;
+
+  const Complex i(0, 1);
+  const double tau = kTheta / L, beta = m.GJ * tau / m.EI1;
+  const Complex amplitude = kCoupling * std::sqrt(m.GJ / m.EI1) * tau / (tau - beta);
+  const Complex turned = std::exp(i * (tau - beta) * L);
+  const Complex tip = amplitude * ((std::exp(i * tau * L) - 1.0) / (i * tau) -
+                                   turned * (std::exp(i * beta * L) - 1.0) / (i * beta) -
+                                   L * (1.0 - turned));
+  constexpr double kOfElements = 2e-3;  // the section's turn within an element
+  EXPECT_NEAR(record.values(0, 0), tip.real(), kOfElements * std::abs(tip));
+  EXPECT_NEAR(record.values(0, 1), tip.imag(), kOfElements * std::abs(tip));
 }
 
 TEST(ExperimentSimulationTest, ARigStandsStillBeforeItsMotionBegins) {
