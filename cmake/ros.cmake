@@ -128,4 +128,8 @@ if(CATKIN_ENABLE_TESTING)
   foreach(file ${rostests})
     add_rostest(${file} DEPENDENCIES cable_node cable_replay apex_check)
   endforeach()
+  # What runs in real time has the machine to itself.
+  get_property(all DIRECTORY PROPERTY TESTS)
+  list(FILTER all INCLUDE REGEX "rostest|rviz_test")
+  set_tests_properties(${all} PROPERTIES RUN_SERIAL TRUE)
 endif()
