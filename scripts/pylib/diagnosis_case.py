@@ -8,9 +8,9 @@ import subprocess
 import time
 
 from nested_paths import nested
+from report_numbers import NORMAL_95
 
 PLAIN = ('EI', 'GJ', 'eta_EI', 'eta_GJ')
-DEVIATIONS = 1.96  # of a 95 % interval
 
 
 def load(*path):
@@ -107,7 +107,7 @@ def covered(truth, verdict):
     result = {}
     for path, value in ((verdict.get('extended') or {}).get('parameters') or {}).items():
         if value is not None and path in known and known[path] != 0:
-            result[path] = abs(value[0] - known[path]) <= DEVIATIONS * value[1]
+            result[path] = abs(value[0] - known[path]) <= NORMAL_95 * value[1]
     return result
 
 

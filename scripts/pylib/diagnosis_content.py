@@ -8,7 +8,7 @@ import numpy as np
 import diagnosis_figures as figures
 import diagnosis_set
 import record_signals as signals
-from report_numbers import number, percent, unit_of
+from report_numbers import NORMAL_95, number, percent, unit_of
 from report_page import Bullets, Figure, Folded, Heading, Table, Text
 
 MOST_LATE = 5  # causes that are told by name where the time limit was reached
@@ -300,7 +300,7 @@ def parameter_items(data):
     def told(model, name):
         value = (model.get('parameters') or {}).get(name)
         if value:
-            return f'{number(*value)} ± {value[1]:.2g}'
+            return f'{number(*value)} ± {NORMAL_95 * value[1]:.2g}'
         reason = (model.get('undetermined') or {}).get(name)
         return f'undetermined: {reason}' if reason else '-'
 
@@ -309,7 +309,7 @@ def parameter_items(data):
     files = [extended[key] for key in ('cable', 'measurement') if extended.get(key)]
     return [Heading('Parameters', 2),
             Table(['parameter', 'unit', 'plain'] + ['extended'] * bool(extended), rows, ''),
-            Text('One standard deviation after ±. Units are SI.' + (
+            Text('Half of the 95 % interval after ±. Units are SI.' + (
                 f" To simulate with: {joined(files)}." if files else ''), '')]
 
 

@@ -1,10 +1,9 @@
 """What a report of cable_identify says, item by item, from identification.json and the records."""
 
 import identification_figures as figures
-from report_numbers import number, percent, unit_of
+from report_numbers import NORMAL_95, number, percent, unit_of
 from report_page import Bullets, Figure, Heading, Table, Text
 
-NORMAL_95 = figures.NORMAL_95
 # Residual over noise from which on a channel is said not to be explained.
 MISFIT = 1.3
 NOISE_FROM = {'set': 'given', 'record': 'the record', 'repeats': 'repeated steps',

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 import page_figures
+from report_numbers import NORMAL_95
 
 # The loss at the disc: D_E in the source paper's formulas.
 END_DAMPING = 'extensions.clamp_damping.b.torsion'
@@ -15,7 +16,6 @@ plt = page_figures.pyplot('identification')
 WIDTH = 10.5
 MEASURED, FIT, OTHER, DIRECT = '0.55', page_figures.COLOURS[0], page_figures.COLOURS[1], \
     page_figures.COLOURS[2]
-NORMAL_95 = 1.959964
 DEVIANCE_95 = 3.841459  # of a profile likelihood, one parameter
 MANY = 300              # samples beyond which a line is drawn, not dots
 LONG = 28               # characters of a label

@@ -2,6 +2,7 @@
 
 import math
 
+NORMAL_95 = 1.959964  # half of a normal distribution's 95 % interval, in standard deviations
 UNITS = {'EI': 'N m^2', 'EI1': 'N m^2', 'EI2': 'N m^2', 'GJ': 'N m^2', 'EA': 'N', 'GA': 'N',
          'eta_EI': 'N m^2 s', 'eta_EI1': 'N m^2 s', 'eta_EI2': 'N m^2 s', 'eta_GJ': 'N m^2 s',
          'eta_EA': 'N s', 'eta_GA': 'N s', 'extensions.clamp_damping.b.torsion': 'N m s/rad',

@@ -27,6 +27,7 @@ Cause SectionFrictionCause() {
   law.enter = Enter;
   cause.name = law.name;
   cause.words = "friction between strands: hysteresis of moment over curvature";
+  cause.form = 0.07;  // four thresholds in place of an even spread of them: docs/causes.md
   using Role = HypothesisNumber::Role;
   for (const double slip : {0.02, 0.08, 0.3, 1.0})
     cause.hypotheses.push_back(

@@ -67,6 +67,7 @@ Cause StructuralDampingCause() {
   law.enter = Enter;
   cause.name = law.name;
   cause.words = "a loss factor that is constant over frequency";
+  cause.form = 0.03;  // no more constant than that, here and elsewhere
   using Role = HypothesisNumber::Role;
   cause.hypotheses = {
       {{{{"extensions.structural_damping.loss_factor", Role::kSize, 0.1, NumberScale::kOne}}}}};

@@ -53,6 +53,20 @@ Records EndsOf(const Records& all, const Records& like) {
 
 }  // namespace
 
+/// What the form of the causes' laws leaves open, as a standard deviation: of a cause's own numbers
+/// a part, and of the cable's the same part of what the cause has moved them by.
+double DiagnosisWork::SdOfForm(const FittedTrial& model, const std::string& name,
+                               double value) const {
+  double variance = 0;
+  for (const Trial& trial : model.trials) {
+    const std::vector<std::string> own = trial.FreePaths();
+    const bool is_own = std::count(own.begin(), own.end(), name) > 0;
+    const double moved = is_own ? value : value - baseline().point.ValueOf(name);
+    if (std::isfinite(moved)) variance += std::pow(FindCause(trial.cause)->form * moved, 2);
+  }
+  return std::sqrt(variance) / kNormal95;
+}
+
 std::map<std::string, FoundParameter> DiagnosisWork::FoundIn(const FittedTrial& model) const {
   std::map<std::string, FoundParameter> found;
   std::vector<std::vector<NoiseColour>> colours;
@@ -71,8 +85,9 @@ std::map<std::string, FoundParameter> DiagnosisWork::FoundIn(const FittedTrial& 
     one.value = model.point.values[i];
     one.unit = u.unit;
     one.reason = determination.reasons[static_cast<std::size_t>(i)];
-    if (one.reason.empty())
-      one.sd = std::sqrt(std::max(0.0, determination.covariance(i, i))) * u.scale;
+    if (!one.reason.empty()) continue;
+    const double of_noise = std::sqrt(std::max(0.0, determination.covariance(i, i))) * u.scale;
+    one.sd = std::hypot(of_noise, SdOfForm(model, u.name, one.value));
   }
   return found;
 }

@@ -100,6 +100,7 @@ class DiagnosisWork {
   void RefineOne(FittedTrial* model);
   bool IsExplained() const;
   bool IsExplained(const std::string& name, const FittedTrial* beside) const;
+  double SdOfForm(const FittedTrial& model, const std::string& name, double value) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
   void FindCorrelations();
   Records HeldOut(const FittedTrial& of) const;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "cosserat_cable/cable/parameters.h"
+#include "cosserat_cable/fit/information.h"
 #include "cosserat_cable/identification/identified_cable.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/record_csv.h"
@@ -15,8 +16,6 @@ namespace cosserat_cable {
 namespace {
 
 using nlohmann::json;
-
-constexpr double kNormal95 = 1.959964;
 
 std::string Joined(const std::vector<std::string>& causes) {
   std::string text;
@@ -182,7 +181,8 @@ std::string VerdictTable(const Diagnosis& diagnosis) {
         << FormatRounded(100 * diagnosis.gain->high, 3) << " %).\n";
   if (diagnosis.has_extended)
     out << "With " << Joined(diagnosis.extended_causes)
-        << (diagnosis.verdict == Verdict::kAmbiguous ? ", which fits best:\n" : ":\n");
+        << (diagnosis.verdict == Verdict::kAmbiguous ? ", which fits best" : "")
+        << " (95 % intervals):\n";
   for (const auto& [name, found] : diagnosis.extended) {
     out << "  " << name << ": ";
     if (found.reason.empty())

@@ -11,7 +11,6 @@
 namespace cosserat_cable {
 namespace {
 
-constexpr double kNormal95 = 1.959964;
 // A parameter whose 95 % interval is wider than it is large is not determined by the data.
 constexpr double kWidest = 1.0;
 // Eigenvalue of the normalised information below which there is none.

@@ -10,7 +10,6 @@
 namespace cosserat_cable {
 namespace {
 
-constexpr double kNormal95 = 1.959964;
 // Half of a sum of squares: a fit that is worse by no more is as good.
 constexpr double kAsWell = 2;
 // The same of another minimum: more than chance makes of four parameters (99 %), or this part.

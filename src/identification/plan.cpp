@@ -11,7 +11,6 @@
 namespace cosserat_cable {
 namespace {
 
-constexpr double kNormal95 = 1.959964;
 constexpr double kInertias[] = {0.5, 1.0, 2.0};
 constexpr int kLengths = 5;
 // Relative half-widths of one round beyond which no number of repeats helps.

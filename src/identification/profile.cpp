@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/fit/information.h"
+
 namespace cosserat_cable {
 namespace {
 
-constexpr double kNormal95 = 1.959964;
 const double kSteps[] = {-3, -2, -1, 1, 2, 3};  // in standard deviations
 // The others are fitted when they can gain no more deviance than this; by so many rounds.
 constexpr double kSettled = 0.02;

@@ -67,6 +67,9 @@ struct Cause {
   /// that shows stands for something else. A tilt of a micro-radian about a far origin is a
   /// displacement.
   double least = 0;
+  /// Cables of this kind have laws that differ in form, and their numbers with it: half of a 95 %
+  /// interval on that account, in parts of each number.
+  double form = 0;
   /// Simpler causes that it turns into where some of its numbers vanish or grow without bound.
   std::vector<std::string> contains;
 };

@@ -11,6 +11,9 @@
 
 namespace cosserat_cable {
 
+/// Half of a normal distribution's 95 % interval, in standard deviations.
+constexpr double kNormal95 = 1.959964;
+
 /// Information matrices in units of the unknowns' scales.
 struct Information {
   Eigen::MatrixXd expected;  ///< of white noise of the levels used: J^T J
