@@ -1,6 +1,7 @@
 """One blind set: made by the generator, diagnosed, and the verdict held against the truth."""
 
 import json
+import math
 import os
 import re
 import shutil
@@ -101,13 +102,20 @@ def unseen_gain(programs, folder, verdict, limit):
     return (plain - better) / (plain - channels)
 
 
+def apart(path, found, true):
+    """Angles come round again; the axes of a section after half a turn."""
+    turn = (2 * math.pi if path.endswith(('.azimuth', '.elevation')) else
+            math.pi if path.endswith('.anisotropy.roll') else 0)
+    return abs(math.remainder(found - true, turn) if turn else found - true)
+
+
 def covered(truth, verdict):
     """{path: whether the interval holds the truth} of the extended cable's parameters."""
     known = dict(truth['parameters'], **truth['effect_parameters'])
     result = {}
     for path, value in ((verdict.get('extended') or {}).get('parameters') or {}).items():
         if value is not None and path in known and known[path] != 0:
-            result[path] = abs(value[0] - known[path]) <= NORMAL_95 * value[1]
+            result[path] = apart(path, value[0], known[path]) <= NORMAL_95 * value[1]
     return result
 
 

@@ -23,7 +23,7 @@ void FitPairs(std::set<std::string>* begun, DiagnosisWork* work) {
   std::vector<int> singles;
   const int models = work->count();
   for (int i = 1; i < models; ++i)
-    if (work->model(i).trials.size() == 1) singles.push_back(i);
+    if (work->model(i).causes().size() == 1) singles.push_back(i);
   std::sort(singles.begin(), singles.end(),
             [&](int a, int b) { return work->model(a).point.cost < work->model(b).point.cost; });
   if (singles.size() > kPairsFrom) singles.resize(kPairsFrom);

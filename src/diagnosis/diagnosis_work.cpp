@@ -46,6 +46,13 @@ constexpr double kFar = 30;
 constexpr double kRanAway = 3;
 const char* const kPlain = "plain";
 
+/// In order, each once.
+std::vector<std::string> Sorted(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
 /// Of trials with all that they begin with.
 std::string NameOf(const std::vector<Trial>& trials) {
   if (trials.empty()) return kPlain;
@@ -89,8 +96,7 @@ Trial PartOf(const Trial& larger, const std::string& simpler) {
 std::vector<std::string> FittedTrial::causes() const {
   std::vector<std::string> names;
   for (const Trial& trial : trials) names.push_back(trial.cause);
-  std::sort(names.begin(), names.end());
-  return names;
+  return Sorted(std::move(names));
 }
 
 int FittedTrial::parameters() const {
@@ -214,12 +220,11 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
   std::vector<Trial> trials = AllTrials(base.set, scales_);
   const std::vector<Trial> obstacles = TrialObstacles(*base.problem, base.point);
   trials.insert(trials.end(), obstacles.begin(), obstacles.end());
-  const std::vector<std::string> there = base.causes();
-  trials.erase(std::remove_if(trials.begin(), trials.end(),
-                              [&](const Trial& trial) {
-                                return std::count(there.begin(), there.end(), trial.cause) > 0;
-                              }),
-               trials.end());
+  const auto cannot_be_beside = [&](const Trial& trial) {
+    return !std::all_of(base.trials.begin(), base.trials.end(),
+                        [&](const Trial& there) { return trial.CanBeBeside(there); });
+  };
+  trials.erase(std::remove_if(trials.begin(), trials.end(), cannot_be_beside), trials.end());
   const SimulationCount before = base.problem->count();
   for (Trial& trial : trials)
     for (TrialComponent& component : trial.components)
@@ -309,7 +314,7 @@ bool DiagnosisWork::IsExplained() const {
 bool DiagnosisWork::IsExplained(const std::string& name, const FittedTrial* beside) const {
   std::vector<std::string> causes = beside ? beside->causes() : std::vector<std::string>();
   causes.push_back(name);
-  std::sort(causes.begin(), causes.end());
+  causes = Sorted(std::move(causes));
   return std::any_of(models_.begin(), models_.end(), [&](const auto& one) {
     return one->causes() == causes && AdequacyOf(one->point, noise_).adequate;
   });
@@ -319,7 +324,9 @@ bool DiagnosisWork::Keep(std::unique_ptr<FittedTrial> model) {
   const std::vector<std::string> causes = model->causes();
   for (auto& one : models_) {
     if (one->causes() != causes) continue;
-    const bool better = model->point.cost < one->point.cost;
+    // Several hypotheses of a cause together must be worth their more numbers.
+    const int more = model->parameters() - one->parameters();
+    const bool better = model->point.cost + kChance * more < one->point.cost;
     if (better) one = std::move(model);
     return better;
   }
@@ -476,14 +483,14 @@ void DiagnosisWork::FitParts() {
   if (judgement.best == 0) return;
   const FittedTrial& whole = model(judgement.best);
   std::vector<Trial> parts;
-  if (whole.trials.size() > 1) {
+  if (whole.causes().size() > 1) {
     parts = whole.trials;
   } else {
-    const Trial& larger = whole.trials.front();
-    for (const std::string& simpler : FindCause(larger.cause)->contains) {
-      const Trial part = PartOf(larger, simpler);
-      if (!part.components.empty()) parts.push_back(part);
-    }
+    for (const Trial& larger : whole.trials)
+      for (const std::string& simpler : FindCause(larger.cause)->contains) {
+        const Trial part = PartOf(larger, simpler);
+        if (!part.components.empty()) parts.push_back(part);
+      }
   }
   for (const Trial& trial : parts) {
     if (IsExplained(trial.cause, nullptr)) continue;

@@ -271,7 +271,7 @@ std::vector<ScreenedPair> ScreenPairs(const std::vector<Screened>& screened) {
   for (std::size_t a = 0; a < screened.size(); ++a)
     for (std::size_t b = a + 1; b < screened.size(); ++b) {
       const std::string &first = screened[a].trial.cause, &second = screened[b].trial.cause;
-      if (first == second) continue;
+      if (!screened[a].trial.CanBeBeside(screened[b].trial)) continue;
       const double drop = components.DropOf({a, b});
       ScreenedPair& known = best[std::minmax(first, second)];
       if (drop > known.drop) known = {a, b, drop};

@@ -121,6 +121,15 @@ std::vector<std::string> Trial::FreePaths() const {
   return paths;
 }
 
+bool Trial::CanBeBeside(const Trial& other) const {
+  if (other.cause != cause) return true;
+  if (other.channels != channels) return false;
+  const std::map<std::string, double> own = Values();
+  for (const auto& [path, value] : other.Values())
+    if (own.count(path) > 0) return false;
+  return true;
+}
+
 std::map<std::string, double> Trial::Values() const {
   std::map<std::string, double> values;
   for (const TrialComponent& component : components)

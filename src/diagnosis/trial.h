@@ -34,6 +34,8 @@ struct Trial {
   std::vector<std::string> FreePaths() const;
   /// All values at the sizes of the components.
   std::map<std::string, double> Values() const;
+  /// Whether both can be at work at once: other causes, or one cause in ways that share no number.
+  bool CanBeBeside(const Trial& other) const;
   /// Whether its numbers at these values are all sizes below the cause's least.
   bool IsFaint(const std::function<double(const std::string& path)>& value_of) const;
 };

@@ -10,10 +10,12 @@ constexpr double kRounding = 1e-6;  // of the ridge on the normal equations
 
 /// A hypothesis with one component that does this to four samples, at a point that leaves `left`.
 Screened Hypothesis(const std::string& cause, const Eigen::Vector4d& effect,
-                    const Eigen::Vector4d& left, bool one_sided = false) {
+                    const Eigen::Vector4d& left, bool one_sided = false,
+                    const std::string& number = "size") {
   Screened one;
   one.trial.cause = cause;
   one.trial.components.emplace_back();
+  one.trial.components.back().numbers = {{cause + "." + number}};
   one.trial.components.back().one_sided = one_sided;
   one.effects = {effect};
   one.parts = {Eigen::VectorXd::Zero(1)};
@@ -42,6 +44,15 @@ TEST(ScreenPairs, AreOfTwoCausesAndTheBestOfEach) {
   EXPECT_EQ(pairs[0].first, 0u);
   EXPECT_EQ(pairs[0].second, 2u);
   EXPECT_NEAR(pairs[0].drop, 3, 3 * kRounding);
+}
+
+TEST(ScreenPairs, AreOfOneCauseWhereItsWaysShareNoNumber) {
+  const Eigen::Vector4d left(1, 1, 0, 0);
+  const std::vector<ScreenedPair> pairs =
+      ScreenPairs({Hypothesis("clamp", {1, 0, 0, 0}, left, false, "tilt"),
+                   Hypothesis("clamp", {0, 1, 0, 0}, left, false, "phase")});
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_NEAR(pairs[0].drop, 2, 2 * kRounding);
 }
 
 TEST(ScreenPairs, CannotTakeAwayOfAOneSidedEffect) {
