@@ -30,7 +30,7 @@ void FitPairs(std::set<std::string>* begun, DiagnosisWork* work) {
   for (const int single : singles) {
     if (!begun->insert(work->model(single).causes().front()).second) continue;
     work->FitCandidates(work->ScreenAround(work->model(single), "screening of pairs"),
-                        &work->model(single), kMostPairs, 0.6);
+                        single, kMostPairs, 0.6);
   }
   work->FitParts();
   work->Continue(0.7);
@@ -57,9 +57,9 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
   DiagnosisWork work(set, options);
   if (!work.FitBaseline(problems)) return work.Failed();
   const std::vector<Screened> screened = work.ScreenAround(work.baseline(), "screening");
-  work.FitCandidates(screened, nullptr, kFirstCandidates, 0.25);
+  work.FitCandidates(screened, 0, kFirstCandidates, 0.25);
   work.FitPromisingPairs(screened, 0.3);
-  work.FitCandidates(screened, nullptr, kMostCandidates, 0.32);
+  work.FitCandidates(screened, 0, kMostCandidates, 0.32);
   work.FitFromSimpler();
   work.Continue(0.4);
   work.RefineBest();
@@ -69,7 +69,7 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
   if (is_half_seen && work.Judged().verdict == Verdict::kUnexplained) FitPairs(&begun, &work);
   if (work.Judged().verdict == Verdict::kUnexplained) {
     // Far from the plain model its derivatives promise little of what is right.
-    work.FitCandidates(screened, nullptr, kAll, 0.4);
+    work.FitCandidates(screened, 0, kAll, 0.4);
     work.FitFromSimpler();
     work.Continue(0.6);
     work.RefineBest();
@@ -84,8 +84,9 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
     second.erase(std::remove_if(second.begin(), second.end(),
                                 [](const Screened& one) { return one.drop < kWorthASecond; }),
                  second.end());
-    work.FitCandidates(second, &work.model(first.best), kMostPairs, 0.6);
+    work.FitCandidates(second, first.best, kMostPairs, 0.6);
   }
+  work.FitRivalsOfParts(kMostPairs, 0.8);
   return work.Report();
 }
 

@@ -11,27 +11,12 @@
 namespace cosserat_cable {
 namespace {
 
-// Iterations of a candidate's fit; and of the few best ones that had not ended by then.
-constexpr int kIterations = 8, kMoreIterations = 20, kContinued = 3;
-// Part of a cause's best promise above which another start of it is fitted too, and how many.
-constexpr double kAsPromising = 0.6;
-constexpr int kStarts = 2;
-// Of what the best single cause promises to leave, what a pair may leave that is fitted before
-// other single ones; and how many pairs.
-constexpr double kPairLeaves = 0.5;
-constexpr std::size_t kPromisingPairs = 3;
-// The part of the misfit that is nearly all of it.
-constexpr double kNearlyAll = 0.9;
-// The part of the misfit that a rival of a cause that leaves just noise must promise.
-constexpr double kRivalPromise = 0.03;
+// Iterations of a candidate's fit; and of one that had not ended by then.
+constexpr int kIterations = 8, kMoreIterations = 20;
 // Of the best's sum of squares: what a rival may leave beyond, to be one.
 constexpr double kAsGood = 0.5;
-// In parts of that: what does not go on to its end.
-constexpr double kFarFromAim = 3;
 // Of the noise's sum of squares: too little for a cause.
 constexpr double kNothing = 0.02;
-// A promise, in noise variances, that chance makes among all hypotheses.
-constexpr double kChance = 10;
 // A noise level that the baseline shows to be this part smaller than the record alone did.
 constexpr double kNoiseSettled = 0.03;
 // How many of the best models are simulated more finely; and the misfit, in times the noise's
@@ -45,13 +30,6 @@ constexpr double kFar = 30;
 // A factor that the plain model has changed a stiffness by, from which a cause may not find back.
 constexpr double kRanAway = 3;
 const char* const kPlain = "plain";
-
-/// In order, each once.
-std::vector<std::string> Sorted(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
-}
 
 /// Of trials with all that they begin with.
 std::string NameOf(const std::vector<Trial>& trials) {
@@ -74,30 +52,9 @@ std::string NameOf(const Trial& trial, const TrialComponent& component) {
   return name;
 }
 
-/// The numbers of a simpler cause among those of a trial.
-Trial PartOf(const Trial& larger, const std::string& simpler) {
-  const std::string own = "extensions." + simpler + ".";
-  Trial part;
-  part.cause = simpler;
-  for (const TrialComponent& component : larger.components) {
-    TrialComponent kept = component;
-    kept.numbers.erase(std::remove_if(kept.numbers.begin(), kept.numbers.end(),
-                                      [&](const HypothesisNumber& number) {
-                                        return number.path.rfind(own, 0) != 0;
-                                      }),
-                       kept.numbers.end());
-    if (!kept.numbers.empty()) part.components.push_back(kept);
-  }
-  return part;
-}
-
 }  // namespace
 
-std::vector<std::string> FittedTrial::causes() const {
-  std::vector<std::string> names;
-  for (const Trial& trial : trials) names.push_back(trial.cause);
-  return Sorted(std::move(names));
-}
+std::vector<std::string> FittedTrial::causes() const { return CausesOf(trials); }
 
 int FittedTrial::parameters() const {
   int count = 0;
@@ -217,7 +174,7 @@ bool DiagnosisWork::FitBaseline(Problems* problems) {
 std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
                                                   const std::string& stage) {
   if (!Tell("screening the causes", 0.2)) return {};
-  std::vector<Trial> trials = AllTrials(base.set, scales_);
+  std::vector<Trial> trials = AllTrials(set_, scales_);
   const std::vector<Trial> obstacles = TrialObstacles(*base.problem, base.point);
   trials.insert(trials.end(), obstacles.begin(), obstacles.end());
   const auto cannot_be_beside = [&](const Trial& trial) {
@@ -311,10 +268,10 @@ bool DiagnosisWork::IsExplained() const {
 }
 
 /// Whether a cause, beside others, leaves nothing but noise already: no other start does better.
-bool DiagnosisWork::IsExplained(const std::string& name, const FittedTrial* beside) const {
-  std::vector<std::string> causes = beside ? beside->causes() : std::vector<std::string>();
-  causes.push_back(name);
-  causes = Sorted(std::move(causes));
+bool DiagnosisWork::IsExplained(const std::string& name, const FittedTrial& beside) const {
+  std::vector<Trial> trials = beside.trials;
+  trials.emplace_back().cause = name;
+  const std::vector<std::string> causes = CausesOf(trials);
   return std::any_of(models_.begin(), models_.end(), [&](const auto& one) {
     return one->causes() == causes && AdequacyOf(one->point, noise_).adequate;
   });
@@ -356,152 +313,6 @@ void DiagnosisWork::Finish(FittedTrial* model) {
   if (ShareOf(*model) < kNearlyAll) return;
   if (!HasEnded(*model)) GoOn(model);
   if (!IsExplained() && !OutOfTime()) RefineOne(model);
-}
-
-void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside,
-                                  int most, double part) {
-  const FittedTrial& from = beside ? *beside : baseline();
-  const std::string stage = beside ? "pairs" : "candidates";
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<const Screened*>> by_cause;
-  for (const Screened& one : screened) {
-    if (one.drop < kChance) continue;
-    std::vector<const Screened*>& of = by_cause[one.trial.cause];
-    if (of.empty()) order.push_back(one.trial.cause);
-    const std::size_t starts = beside ? 1 : kStarts;
-    if (of.size() < starts && (of.empty() || one.drop > kAsPromising * of.front()->drop))
-      of.push_back(&one);
-  }
-  // What another one contains is held against it.
-  std::vector<std::string> chosen(
-      order.begin(),
-      order.begin() + std::min<std::ptrdiff_t>(most, static_cast<std::ptrdiff_t>(order.size())));
-  for (const std::string& name : std::vector<std::string>(chosen))
-    for (const std::string& simpler : FindCause(name)->contains)
-      if (by_cause.count(simpler) > 0 &&
-          std::find(chosen.begin(), chosen.end(), simpler) == chosen.end())
-        chosen.push_back(simpler);
-  double done = 0;
-  for (const std::string& name : chosen) {
-    if (!beside && !tried_.insert(name).second) continue;
-    const bool explained = IsExplained();
-    for (const Screened* one : by_cause[name]) {
-      if (one != by_cause[name].front() && (explained || IsExplained(name, beside))) break;
-      if (explained && one->drop < kRivalPromise * from.point.cost) break;
-      if (OutOfTime() || !Tell((beside ? "together with " : "trying ") + name,
-                               part + 0.3 * done / static_cast<double>(chosen.size())))
-        return;
-      std::vector<Trial> trials = beside ? beside->trials : std::vector<Trial>();
-      trials.push_back(one->trial);
-      std::unique_ptr<FittedTrial> fitted = FitOneOrFromTheSet(trials, from);
-      if (!fitted) continue;
-      Charge(stage, fitted->problem->count());
-      if (fitted->point.ok && !fitted->point.interrupted) {
-        FittedTrial* model = fitted.get();
-        if (Keep(std::move(fitted))) Finish(model);
-      } else if (!beside) {
-        failures_[name] = fitted->point.message;
-      }
-    }
-    ++done;
-  }
-  FindCorrelations();
-}
-
-void DiagnosisWork::FitPromisingPairs(const std::vector<Screened>& screened, double part) {
-  const double misfit = AdequacyOf(baseline().point, noise_).excess();
-  if (screened.empty() || ShareOfBest() > kNearlyAll) return;
-  const std::vector<ScreenedPair> pairs = ScreenPairs(screened);
-  const double left_by_one = misfit - screened.front().drop;
-  for (std::size_t k = 0; k < std::min(pairs.size(), kPromisingPairs); ++k) {
-    if (misfit - pairs[k].drop > kPairLeaves * left_by_one || IsExplained()) break;
-    const std::vector<Trial> trials = {screened[pairs[k].first].trial,
-                                       screened[pairs[k].second].trial};
-    if (OutOfTime() || !Tell("trying " + trials[0].cause + " and " + trials[1].cause, part)) return;
-    std::unique_ptr<FittedTrial> fitted = FitOne(trials, baseline());
-    if (!fitted) continue;
-    Charge("pairs", fitted->problem->count());
-    if (!fitted->point.ok || fitted->point.interrupted) continue;
-    FittedTrial* model = fitted.get();
-    if (Keep(std::move(fitted))) Finish(model);
-  }
-  FindCorrelations();
-}
-
-/// The fits that promise to come nearest go on to their ends.
-void DiagnosisWork::Continue(double part) {
-  std::vector<FittedTrial*> open;
-  const double aim = Aim();
-  for (auto& model : models_) {
-    const bool is_far = aim > 0 && model->point.cost > kFarFromAim * aim;
-    if (!model->trials.empty() && !HasEnded(*model) && !is_far) open.push_back(model.get());
-  }
-  std::sort(open.begin(), open.end(), [](const FittedTrial* a, const FittedTrial* b) {
-    return a->point.cost < b->point.cost;
-  });
-  if (open.size() > kContinued) open.resize(kContinued);
-  if (!Tell("going on with the best", part)) return;
-  for (FittedTrial* model : open) GoOn(model);
-  FindCorrelations();
-}
-
-void DiagnosisWork::FitFromSimpler() {
-  for (const Cause& cause : Causes()) {
-    if (cause.from_simpler.empty() || IsExplained(cause.name, nullptr)) continue;
-    if (begun_from_simpler_.count(cause.name) > 0) continue;
-    const auto simpler = std::find_if(models_.begin(), models_.end(), [&](const auto& one) {
-      return one->causes() == std::vector<std::string>{cause.contains.front()};
-    });
-    if (simpler == models_.end() || AdequacyOf((*simpler)->point, noise_).adequate) continue;
-    if (OutOfTime() || !Tell("beyond " + cause.contains.front() + ": " + cause.name, 0.55)) return;
-    begun_from_simpler_.insert(cause.name);
-    const FittedTrial& from = **simpler;
-    scales_.simpler.clear();
-    for (const char* axis : {"a.bending", "b.bending", "a.torsion", "b.torsion"}) {
-      const double stiffness =
-          from.point.ValueOf(std::string("extensions.clamp_compliance.") + axis);
-      if (stiffness > 0) scales_.simpler[axis] = stiffness;
-    }
-    FitProblem& plain = *models_.front()->problem;
-    const FitPoint there = plain.At(plain.StartFrom(from.point, {}));
-    if (!there.ok) continue;
-    const std::vector<Screened> starts = Screen(plain, there, TrialsFromSimpler(cause, scales_));
-    int tried = 0;
-    for (const Screened& start : starts) {
-      if (tried++ == kStarts || OutOfTime() || IsExplained(cause.name, nullptr)) break;
-      std::unique_ptr<FittedTrial> fitted = FitOne({start.trial}, from);
-      if (!fitted) continue;
-      Charge("candidates", fitted->problem->count());
-      if (fitted->point.ok && !fitted->point.interrupted) Keep(std::move(fitted));
-    }
-  }
-  FindCorrelations();
-}
-
-void DiagnosisWork::FitParts() {
-  const Judgement judgement = Judged();
-  if (judgement.best == 0) return;
-  const FittedTrial& whole = model(judgement.best);
-  std::vector<Trial> parts;
-  if (whole.causes().size() > 1) {
-    parts = whole.trials;
-  } else {
-    for (const Trial& larger : whole.trials)
-      for (const std::string& simpler : FindCause(larger.cause)->contains) {
-        const Trial part = PartOf(larger, simpler);
-        if (!part.components.empty()) parts.push_back(part);
-      }
-  }
-  for (const Trial& trial : parts) {
-    if (IsExplained(trial.cause, nullptr)) continue;
-    if (OutOfTime() || !Tell("without the rest: " + trial.cause, 0.7)) return;
-    // From where it stands in the whole, which may lie beyond what its own search has seen.
-    std::unique_ptr<FittedTrial> alone = FitOne({trial}, model(judgement.best));
-    if (!alone) continue;
-    Charge("removal", alone->problem->count());
-    if (alone->point.ok && !alone->point.interrupted) Keep(std::move(alone));
-  }
-  FindCorrelations();
 }
 
 void DiagnosisWork::RefineOne(FittedTrial* model) {

@@ -45,9 +45,8 @@ class DiagnosisWork {
   bool FitBaseline(Problems* problems);
   /// Orders the hypotheses by what they promise, beside the model at `base`.
   std::vector<Screened> ScreenAround(const FittedTrial& base, const std::string& stage);
-  /// Fits the most promising causes, one at a time; with `beside`, together with its causes.
-  void FitCandidates(const std::vector<Screened>& screened, const FittedTrial* beside, int most,
-                     double part);
+  /// Fits the most promising causes, one at a time, together with those of the model `beside`.
+  void FitCandidates(const std::vector<Screened>& screened, int beside, int most, double part);
   /// Fits the two causes together that promise most, where no single one promises nearly as much.
   void FitPromisingPairs(const std::vector<Screened>& screened, double part);
   void Continue(double part);
@@ -56,6 +55,8 @@ class DiagnosisWork {
   /// Fits what the best model is made of by itself, or the simpler causes that it contains, from
   /// where it ended.
   void FitParts();
+  /// Of an answer of several causes: fits what else promises nearly as much in the place of each.
+  void FitRivalsOfParts(int most, double part);
   /// The steps of the best models made as fine as what is left there asks, and they are fitted
   /// again.
   void RefineBest();
@@ -79,6 +80,10 @@ class DiagnosisWork {
 
  private:
   static constexpr double kFits = 0.85;
+  // A promise, in noise variances, that chance makes among all hypotheses.
+  static constexpr double kChance = 10;
+  // The part of the misfit that is nearly all of it.
+  static constexpr double kNearlyAll = 0.9;
   using Clock = std::chrono::steady_clock;
   double Seconds() const { return std::chrono::duration<double>(Clock::now() - begin_).count(); }
   bool Tell(const std::string& what, double part);
@@ -99,7 +104,7 @@ class DiagnosisWork {
   void Finish(FittedTrial* model);
   void RefineOne(FittedTrial* model);
   bool IsExplained() const;
-  bool IsExplained(const std::string& name, const FittedTrial* beside) const;
+  bool IsExplained(const std::string& name, const FittedTrial& beside) const;
   double SdOfForm(const FittedTrial& model, const std::string& name, double value) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
   void FindCorrelations();
@@ -117,7 +122,7 @@ class DiagnosisWork {
   FitMemory memory_;
   SetNoise noise_;
   MotionScales scales_;
-  std::vector<std::unique_ptr<FittedTrial>> models_;  // the first is the plain one
+  std::vector<std::shared_ptr<FittedTrial>> models_;  // the first is the plain one
   std::map<std::string, double> promises_;            // by cause, in noise variances
   std::map<std::string, double> sizes_;               // of components that show faintly
   std::set<std::string> tried_;                       // causes that were fitted alone

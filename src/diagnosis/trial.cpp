@@ -147,6 +147,14 @@ bool Trial::IsFaint(const std::function<double(const std::string& path)>& value_
   return true;
 }
 
+std::vector<std::string> CausesOf(const std::vector<Trial>& trials) {
+  std::vector<std::string> names;
+  for (const Trial& trial : trials) names.push_back(trial.cause);
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
 std::vector<Trial> TrialsFromSimpler(const Cause& cause, const MotionScales& scales) {
   std::vector<Trial> trials;
   for (const Hypothesis& hypothesis : cause.from_simpler) {

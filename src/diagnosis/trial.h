@@ -40,6 +40,9 @@ struct Trial {
   bool IsFaint(const std::function<double(const std::string& path)>& value_of) const;
 };
 
+/// Their causes, in order, each once.
+std::vector<std::string> CausesOf(const std::vector<Trial>& trials);
+
 /// The hypotheses of a cause from where a simpler one was found.
 std::vector<Trial> TrialsFromSimpler(const Cause& cause, const MotionScales& scales);
 
