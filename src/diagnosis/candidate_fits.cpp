@@ -89,11 +89,11 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, int bes
     }
     ++done;
   }
-  FindCorrelations();
+  LookAtTheBest();
 }
 
 void DiagnosisWork::FitPromisingPairs(const std::vector<Screened>& screened, double part) {
-  const double misfit = AdequacyOf(baseline().point, noise_).excess();
+  const double misfit = AdequacyOf(baseline().point, seen_noise_).excess();
   if (screened.empty() || ShareOfBest() > kNearlyAll) return;
   const std::vector<ScreenedPair> pairs = ScreenPairs(screened);
   const double left_by_one = misfit - screened.front().drop;
@@ -109,7 +109,7 @@ void DiagnosisWork::FitPromisingPairs(const std::vector<Screened>& screened, dou
     FittedTrial* model = fitted.get();
     if (Keep(std::move(fitted))) Finish(model);
   }
-  FindCorrelations();
+  LookAtTheBest();
 }
 
 /// The fits that promise to come nearest go on to their ends.
@@ -126,7 +126,7 @@ void DiagnosisWork::Continue(double part) {
   if (open.size() > kContinued) open.resize(kContinued);
   if (!Tell("going on with the best", part)) return;
   for (FittedTrial* model : open) GoOn(model);
-  FindCorrelations();
+  LookAtTheBest();
 }
 
 void DiagnosisWork::FitFromSimpler() {
@@ -136,7 +136,7 @@ void DiagnosisWork::FitFromSimpler() {
     const auto simpler = std::find_if(models_.begin(), models_.end(), [&](const auto& one) {
       return one->causes() == std::vector<std::string>{cause.contains.front()};
     });
-    if (simpler == models_.end() || AdequacyOf((*simpler)->point, noise_).adequate) continue;
+    if (simpler == models_.end() || AdequacyOf((*simpler)->point, seen_noise_).adequate) continue;
     if (OutOfTime() || !Tell("beyond " + cause.contains.front() + ": " + cause.name, 0.55)) return;
     begun_from_simpler_.insert(cause.name);
     const FittedTrial& from = **simpler;
@@ -159,7 +159,7 @@ void DiagnosisWork::FitFromSimpler() {
       if (fitted->point.ok && !fitted->point.interrupted) Keep(std::move(fitted));
     }
   }
-  FindCorrelations();
+  LookAtTheBest();
 }
 
 void DiagnosisWork::FitParts() {
@@ -185,7 +185,7 @@ void DiagnosisWork::FitParts() {
     Charge("removal", alone->problem->count());
     if (alone->point.ok && !alone->point.interrupted) Keep(std::move(alone));
   }
-  FindCorrelations();
+  LookAtTheBest();
 }
 
 void DiagnosisWork::FitRivalsOfParts(int most, double part) {

@@ -116,7 +116,7 @@ MeasurementSet DiagnosisWork::Filled(const FittedTrial& of) const {
 }
 
 void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
-  const Adequacy plain = AdequacyOf(baseline().point, noise_);
+  const Adequacy plain = AdequacyOf(baseline().point, seen_noise_);
   const Records best_heldout = LinearisedHeldOut(model(judgement.best).point);
   // Of a large set, the plain model has predicted records that candidates have not.
   const bool all_fitted = set_.experiments.size() == whole_.experiments.size();
@@ -126,7 +126,7 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
     Candidate candidate;
     candidate.causes = of.causes();
     candidate.fitted = true;
-    const Adequacy adequacy = AdequacyOf(of.point, noise_);
+    const Adequacy adequacy = AdequacyOf(of.point, seen_noise_);
     candidate.chi2 = adequacy.chi2;
     candidate.samples = of.point.samples;
     candidate.log_likelihood = LikelihoodOf(of.point).log_likelihood;
@@ -201,7 +201,7 @@ void DiagnosisWork::ReportRecords(const Judgement& judgement) {
     view.measured = experiment.record.values;
     view.baseline = baseline().point.simulated[e];
     if (judgement.best != 0) view.extended = model(judgement.best).point.simulated[e];
-    view.noise = noise_.levels[e];
+    view.noise = seen_noise_.levels[e];
     diagnosis_.records.push_back(std::move(view));
   }
 }
@@ -272,10 +272,10 @@ Diagnosis DiagnosisWork::Report() {
         "interrupted: the verdict is on the causes that were tried until then");
   diagnosis_.verdict = judgement.verdict;
   diagnosis_.noise_known = noise_.known;
-  diagnosis_.noise_floor = NoiseFloor(set_, noise_.levels);
+  diagnosis_.noise_floor = NoiseFloor(set_, seen_noise_.levels);
   const FittedTrial& best = model(judgement.best);
-  const auto times = [](const FittedTrial& of) {
-    return std::sqrt(of.point.cost / std::max(1.0, of.point.samples));
+  const auto times = [this](const FittedTrial& of) {
+    return std::sqrt(AdequacyOf(of.point, seen_noise_).chi2 / std::max(1.0, of.point.samples));
   };
   diagnosis_.baseline_times_noise = times(baseline());
   const Likelihood likelihood = LikelihoodOf(baseline().point);

@@ -166,7 +166,7 @@ bool DiagnosisWork::FitBaseline(Problems* problems) {
   }
   scales_ = FindMotionScales(*plain->problem, plain->point);
   models_.push_back(std::move(plain));
-  FindCorrelations();
+  LookAtTheBest();
   Charge("baseline");
   return true;
 }
@@ -207,7 +207,7 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
 double DiagnosisWork::Aim() const {
   double least = 0;
   for (const auto& model : models_)
-    if (!model->trials.empty() && AdequacyOf(model->point, noise_).adequate)
+    if (!model->trials.empty() && AdequacyOf(model->point, seen_noise_).adequate)
       least = least > 0 ? std::min(least, model->point.cost) : model->point.cost;
   return least > 0 ? std::max(least, models_.front()->point.samples) * (1 + kAsGood) : 0;
 }
@@ -246,7 +246,7 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOneOrFromTheSet(const std::vector
                                                                const FittedTrial& from) {
   std::unique_ptr<FittedTrial> fitted = FitOne(trials, from);
   if (!fitted || fitted->point.interrupted || from.IsFar()) return fitted;
-  if (fitted->point.ok && AdequacyOf(fitted->point, noise_).adequate) return fitted;
+  if (fitted->point.ok && AdequacyOf(fitted->point, seen_noise_).adequate) return fitted;
   Also also;
   for (std::size_t i = 0; i < from.point.unknowns.size(); ++i) {
     const Unknown& u = from.point.unknowns[i];
@@ -264,7 +264,7 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOneOrFromTheSet(const std::vector
 /// Whether one of the causes leaves nothing but noise.
 bool DiagnosisWork::IsExplained() const {
   return std::any_of(models_.begin() + 1, models_.end(),
-                     [&](const auto& one) { return AdequacyOf(one->point, noise_).adequate; });
+                     [&](const auto& one) { return AdequacyOf(one->point, seen_noise_).adequate; });
 }
 
 /// Whether a cause, beside others, leaves nothing but noise already: no other start does better.
@@ -273,7 +273,7 @@ bool DiagnosisWork::IsExplained(const std::string& name, const FittedTrial& besi
   trials.emplace_back().cause = name;
   const std::vector<std::string> causes = CausesOf(trials);
   return std::any_of(models_.begin(), models_.end(), [&](const auto& one) {
-    return one->causes() == causes && AdequacyOf(one->point, noise_).adequate;
+    return one->causes() == causes && AdequacyOf(one->point, seen_noise_).adequate;
   });
 }
 
@@ -342,15 +342,17 @@ void DiagnosisWork::RefineBest() {
     if (refined++ == kRefined || OutOfTime() || !Tell("finer steps", 0.75)) break;
     RefineOne(model);
   }
-  FindCorrelations();
+  LookAtTheBest();
 }
 
-/// Of the residuals of the best model: what it leaves is nearest to noise.
-void DiagnosisWork::FindCorrelations() {
+/// Of what the best model leaves, which is nearest to noise: how far it is correlated, and how large
+/// the noise is that it no longer hides.
+void DiagnosisWork::LookAtTheBest() {
   const auto best =
       std::min_element(models_.begin(), models_.end(),
                        [](const auto& a, const auto& b) { return a->point.cost < b->point.cost; });
   correlations_ = CorrelationsOf((*best)->point);
+  seen_noise_ = NoiseOf(set_, (*best)->point.simulated);
 }
 
 Difference DiagnosisWork::DifferenceBetween(int worse, int better) const {
@@ -358,13 +360,13 @@ Difference DiagnosisWork::DifferenceBetween(int worse, int better) const {
 }
 
 bool DiagnosisWork::LeavesNothing(int i) const {
-  const Adequacy adequacy = AdequacyOf(model(i).point, noise_);
+  const Adequacy adequacy = AdequacyOf(model(i).point, seen_noise_);
   return adequacy.excess() < std::max(kNothing * adequacy.expected, 2 * adequacy.sd);
 }
 
 double DiagnosisWork::ShareOf(const FittedTrial& model) const {
-  const Adequacy plain = AdequacyOf(models_.front()->point, noise_);
-  return (plain.chi2 - AdequacyOf(model.point, noise_).chi2) / std::max(plain.excess(), 1.0);
+  const Adequacy plain = AdequacyOf(models_.front()->point, seen_noise_);
+  return (plain.chi2 - AdequacyOf(model.point, seen_noise_).chi2) / std::max(plain.excess(), 1.0);
 }
 
 double DiagnosisWork::ShareOfBest() const {
@@ -377,7 +379,7 @@ Judgement DiagnosisWork::Judged() const {
   std::vector<Contender> contenders;
   for (const auto& model : models_)
     contenders.push_back(
-        {model->causes(), model->parameters(), AdequacyOf(model->point, noise_), model->IsFaint()});
+        {model->causes(), model->parameters(), AdequacyOf(model->point, seen_noise_), model->IsFaint()});
   std::map<int, Records> predicted;
   const auto predictions = [&](int i) -> const Records& {
     if (!predicted.count(i)) predicted[i] = LinearisedHeldOut(model(i).point);

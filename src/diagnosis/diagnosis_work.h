@@ -107,7 +107,7 @@ class DiagnosisWork {
   bool IsExplained(const std::string& name, const FittedTrial& beside) const;
   double SdOfForm(const FittedTrial& model, const std::string& name, double value) const;
   std::map<std::string, FoundParameter> FoundIn(const FittedTrial& model) const;
-  void FindCorrelations();
+  void LookAtTheBest();
   Records HeldOut(const FittedTrial& of) const;
   MeasurementSet Filled(const FittedTrial& of) const;
   void ReportCandidates(const Judgement& judgement);
@@ -120,7 +120,8 @@ class DiagnosisWork {
   const MeasurementSet set_;  // what is fitted of it
   const DiagnosisOptions& options_;
   FitMemory memory_;
-  SetNoise noise_;
+  SetNoise noise_;       // that fits weigh by
+  SetNoise seen_noise_;  // that what is left is judged by
   MotionScales scales_;
   std::vector<std::shared_ptr<FittedTrial>> models_;  // the first is the plain one
   std::map<std::string, double> promises_;            // by cause, in noise variances

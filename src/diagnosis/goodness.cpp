@@ -32,14 +32,15 @@ Adequacy AdequacyOf(const FitPoint& point, const SetNoise& noise) {
   double variance = 0, tolerance = 0;
   for (std::size_t e = 0; e < point.residuals.size(); ++e)
     for (Eigen::Index c = 0; c < point.residuals[e].cols(); ++c) {
-      const Eigen::VectorXd left = point.residuals[e].col(c);
+      const NoiseLevel& level = noise.sources[e][static_cast<std::size_t>(c)];
+      const Eigen::VectorXd left =
+          point.residuals[e].col(c) * (point.noise[e][c] / noise.levels[e][c]);
       const auto n = static_cast<double>((left.array() != 0).count());
       if (n < 1) continue;
       const NoiseColour colour = ColourOf(left);
       double squares = 1;
       for (std::size_t lag = 1; lag < colour.autocorrelation.size(); ++lag)
         squares += 2 * colour.autocorrelation[lag] * colour.autocorrelation[lag];
-      const NoiseLevel& level = noise.sources[e][static_cast<std::size_t>(c)];
       adequacy.chi2 += left.squaredNorm();
       adequacy.expected += n;
       variance += 2 * n * squares;

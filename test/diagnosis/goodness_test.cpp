@@ -32,6 +32,7 @@ FitPoint PointOf(const Records& residuals) {
   for (const Eigen::MatrixXd& one : residuals) {
     point.cost += one.squaredNorm();
     point.samples += static_cast<double>(one.size());
+    point.noise.push_back(Eigen::VectorXd::Ones(one.cols()));
   }
   point.values = Eigen::VectorXd::Zero(2);
   return point;
@@ -58,6 +59,15 @@ TEST(AdequacyTest, NoiseIsAdequateAndTwiceTheNoiseIsNot) {
     for (Eigen::MatrixXd& one : twice) one *= 2;
     EXPECT_FALSE(AdequacyOf(PointOf(twice), Given(twice)).adequate) << correlation;
   }
+}
+
+TEST(AdequacyTest, WhatIsLeftIsJudgedByTheNoiseThatIsKnownNow) {
+  Records twice = {Noise(2000, 2, 0, 1)};
+  twice[0] *= 2;
+  SetNoise larger = Given(twice);
+  larger.levels[0] *= 2;
+  EXPECT_TRUE(AdequacyOf(PointOf(twice), larger).adequate);
+  EXPECT_NEAR(AdequacyOf(PointOf(twice), larger).chi2, twice[0].squaredNorm() / 4, 1e-9);
 }
 
 TEST(AdequacyTest, ColourWidensTheSpread) {
