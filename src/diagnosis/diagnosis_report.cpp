@@ -28,6 +28,14 @@ std::string WordsOf(const std::string& name) {
   return cause ? cause->words + " (" + name + ")" : name;
 }
 
+/// "nothing (none)", or all of its causes.
+std::string WordsOf(const FittedTrial& model) {
+  if (model.trials.empty()) return "nothing (none)";
+  std::vector<std::string> words;
+  for (const std::string& name : model.causes()) words.push_back(WordsOf(name));
+  return List(words, "and");
+}
+
 /// The noise of all channels of the set's first quantity, rms.
 double NoiseFloor(const MeasurementSet& set, const NoiseLevels& levels) {
   const Quantity quantity = set.experiments.front().channels.front().quantity;
@@ -230,19 +238,15 @@ void DiagnosisWork::Say(const Judgement& judgement) {
     case Verdict::kNone:
       sentence = left + ": nothing is missing that these records show.";
       break;
-    case Verdict::kNamed: {
-      std::vector<std::string> words;
-      for (const std::string& name : diagnosis_.causes) words.push_back(WordsOf(name));
-      sentence = left + "; with " + List(words, "and") + " it leaves " +
+    case Verdict::kNamed:
+      sentence = left + "; with " + WordsOf(model(judgement.best)) + " it leaves " +
                  FormatRounded(diagnosis_.extended_times_noise, 3) + " times the noise.";
       break;
-    }
     case Verdict::kAmbiguous: {
-      std::vector<std::string> words;
-      for (const std::string& name : diagnosis_.causes)
-        words.push_back(name == "none" ? "nothing (none)" : WordsOf(name));
-      sentence =
-          left + ". The records cannot tell which of these is at work: " + List(words, "or") + ".";
+      std::vector<std::string> answers = {WordsOf(model(judgement.best))};
+      for (const int r : judgement.rivals) answers.push_back(WordsOf(model(r)));
+      sentence = left + ". The records cannot tell which of these is at work: " +
+                 List(answers, "or") + ".";
       break;
     }
     case Verdict::kUnexplained:
