@@ -178,6 +178,21 @@ bool EdgeJudge::MovesByJumps() const {
   return p.MovesByJumps() || q.MovesByJumps();
 }
 
+Finding EdgeJudge::Corrections(const std::string& subject, const std::string& topic) const {
+  const MotionChannel* channel = impl_->Worse(
+      [](const auto& c) { return c.MovesByJumps(); },
+      [](const auto& c) { return c.largest_step().size / c.limits().jump; });
+  const MotionChannel::Tally& largest = channel->largest_step();
+  Finding finding = impl_->Start("jump", largest);
+  finding.first = finding.worst;
+  finding.limit = channel->limits().jump;
+  finding.unit = impl_->Unit(channel);
+  finding.what = "moves by steps, of up to " + impl_->SizeText(channel, finding.size);
+  finding.subject = subject;
+  finding.topic = topic;
+  return finding;
+}
+
 void EdgeJudge::Restart() {
   impl_->KeepWaiting();
   impl_->has_last = false;

@@ -22,6 +22,8 @@ constexpr double kAlike = 0.3;
 constexpr double kEven = 0.2;
 // Of what a sample is off, its place on the path leaves no more than this.
 constexpr double kOnPath = 0.25;
+// Longer intervals, in the median of those around, are holes: what was between is not known.
+constexpr double kHole = 2.75;
 // Rotations between samples that are nearly half a turn apart say nothing.
 constexpr double kLargestTurn = 2.5;  // [rad]
 // Rounding of poses [m], [rad].
@@ -86,10 +88,11 @@ void OutlierJudge::JudgeRest() {
 bool OutlierJudge::Look(int from, int count, int channel, Places* places, double* times) const {
   if (from < 0 || from + count > static_cast<int>(samples_.size())) return false;
   const Sample& first = samples_[from];
+  std::array<double, 2 * kSide + kLongest> intervals;
   for (int i = 0; i < count; ++i) {
     const Sample& sample = samples_[from + i];
     times[i] = static_cast<double>(sample.stamp - first.stamp) * 1e-9;
-    if (i > 0 && times[i] - times[i - 1] > max_gap_) return false;
+    if (i > 0) intervals[i - 1] = times[i] - times[i - 1];
     if (channel == 0) {
       (*places)[i] = sample.X.p - first.X.p;
     } else {
@@ -99,7 +102,11 @@ bool OutlierJudge::Look(int from, int count, int channel, Places* places, double
       if ((*places)[i].norm() > kLargestTurn) return false;
     }
   }
-  return true;
+  const auto end = intervals.begin() + (count - 1);
+  const double longest = *std::max_element(intervals.begin(), end);
+  const auto median = intervals.begin() + (count - 1) / 2;
+  std::nth_element(intervals.begin(), median, end);
+  return longest <= std::min(max_gap_, kHole * *median);
 }
 
 // How far a sample is off both parabolas, or these off each other.

@@ -185,6 +185,8 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
     const bool is_corrected = above && edge.correction && edge.correction->MovesByJumps();
     Findings motion = (is_corrected ? *edge.correction : edge.motion).Report(subject, edge.topic);
     if (is_corrected) {
+      // Many small ones, none of which stands out.
+      if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
       for (Finding& finding : motion)
         finding.remedy = world == smooth
                              ? "a localisation corrects it, so '" + smooth +

@@ -217,6 +217,13 @@ TEST(EdgeJudge, BlowsAndStartsAreNoSpikes) {
   }
 }
 
+TEST(EdgeJudge, HolesAreNoBadStamps) {
+  EdgeJudge judge(EdgeRole::kJoint, kMaxGap);
+  for (int i = 0; i < 1000; ++i)
+    if (i < 500 || i > 505) judge.Add(Stamp(kStart + 0.005 * i), At(Rough(0.005 * i)));
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
+}
+
 TEST(EdgeJudge, NoiseHasNoSpikes) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 3e-4);
