@@ -133,6 +133,8 @@ sensor_msgs::JointState Restamped(sensor_msgs::JointState message) {
   return message;
 }
 
+std::int64_t Arrival() { return ToNanoseconds(ros::Time::now()); }
+
 // What is published under other names than those to which the node listens.
 std::vector<std::string> UnreadTopics(const MotionTopics& topics) {
   ros::master::V_TopicInfo published;
@@ -176,7 +178,8 @@ ExitCode RunNode(const NodeOptions& options) {
   const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
       topics.tf, kInputQueue, boost::function<void(const TfEvent&)>([&](const TfEvent& event) {
         const tf2_msgs::TFMessage& message = *event.getConstMessage();
-        engine.Ingest(by_arrival ? Restamped(message) : message, false, event.getPublisherName());
+        engine.Ingest(by_arrival ? Restamped(message) : message, false, event.getPublisherName(),
+                      Arrival());
       }),
       ros::VoidConstPtr(), hints);
   const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
@@ -191,7 +194,8 @@ ExitCode RunNode(const NodeOptions& options) {
         topics.joint_states, kInputQueue,
         boost::function<void(const JointEvent&)>([&](const JointEvent& event) {
           const sensor_msgs::JointState& message = *event.getConstMessage();
-          engine.Ingest(by_arrival ? Restamped(message) : message, event.getPublisherName());
+          engine.Ingest(by_arrival ? Restamped(message) : message, event.getPublisherName(),
+                        Arrival());
         }),
         ros::VoidConstPtr(), hints);
   }

@@ -109,7 +109,8 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   }
   // What could not be used may be why.
   if (!links.Missing().empty())
-    for (const std::string& warning : links.warnings().Sentences()) problems->Add(all, warning);
+    for (const std::string& warning : links.warnings().Sentences(links.Start()))
+      problems->Add(all, warning);
   // How it may be mended, or what is likely to be missed.
   survey.notes = links.Advice();
   for (std::string& topic : UnreadMotion(bags.contents(), bags.topics()))
@@ -117,7 +118,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (!links.Missing().empty())
     for (const std::string& advice : survey.notes) problems->Add(all, advice);
   survey.edges = links.edges();
-  survey.warnings = links.warnings().Sentences();
+  survey.warnings = links.warnings().Sentences(links.Start());
   survey.gaps = links.gap_count();
   survey.world = links.SmoothWorld();
   if (survey.world != links.world()) survey.topmost = links.world();
@@ -127,13 +128,26 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     if (above->second.is_followed) survey.gaps -= above->second.gaps;
     above->second.is_followed = false;
   }
-  survey.findings = links.MotionFindings(survey.world);
+  bool nothing = false;
+  survey.findings = links.CoverageFindings(survey.world, &nothing);
+  for (Finding& finding : links.MotionFindings(survey.world))
+    survey.findings.push_back(std::move(finding));
+  for (Finding& finding : survey.findings) finding.start = links.Start();
   for (const auto& [child, edge] : survey.edges) {
     const bool by_tf =
         edge.source == LinkMotion::Source::kTf || edge.source == LinkMotion::Source::kTfStatic;
     if (by_tf && edge.parent == survey.world) survey.world_is_recorded = true;
   }
   if (!links.Missing().empty()) return;
+  if (nothing) {
+    problems->Add(
+        all, "nothing would be simulated: the links are known together at one instant at most");
+    for (const Finding& finding : survey.findings) problems->Add(all, finding.ToString());
+    for (const std::string& advice : survey.notes) problems->Add(all, advice);
+    if (links.Apart().front().find("two clocks") != std::string::npos)
+      for (std::string& reason : links.Apart()) problems->Add(all, std::move(reason));
+    return;
+  }
 
   link_options.world_frame = survey.world;
   link_options.judge = false;
@@ -168,6 +182,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
                                  inputs->cables.cables, followed);
     for (const ClampJudge& clamps : survey.clamps)
       for (Finding& finding : clamps.Report()) survey.findings.push_back(std::move(finding));
+    for (Finding& finding : survey.findings) finding.start = links.Start();
   }
   inputs->survey = std::move(survey);
 }

@@ -96,8 +96,9 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
       advance();
       advance_at = message.time + kReadAhead;
     }
-    if (message.tf) engine->Ingest(*message.tf, message.is_static, message.publisher());
-    if (message.joints) engine->Ingest(*message.joints, message.publisher());
+    if (message.tf)
+      engine->Ingest(*message.tf, message.is_static, message.publisher(), message.time);
+    if (message.joints) engine->Ingest(*message.joints, message.publisher(), message.time);
     sink->Copy(std::move(message));
     return !Interrupted();
   });

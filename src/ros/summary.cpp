@@ -93,7 +93,7 @@ std::string Summary::ToText() const {
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
   if (smooth > 0) text << "links smoothed by a low-pass of " << Format("%g", smooth) << " Hz\n";
-  for (const auto& [kind, count] : warnings) text << "warning: " << kind << ": " << count << "\n";
+  for (const std::string& warning : warning_sentences) text << "warning: " << warning << "\n";
   for (const Finding& finding : findings) text << "warning: " << finding.ToString() << "\n";
   for (const std::string& note : notes) text << "note: " << note << "\n";
   return text.str();
@@ -115,7 +115,8 @@ std::string Summary::ToJson() const {
     json << separator << "\n    " << JsonString(kind) << ": " << count;
     separator = ",";
   }
-  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"smooth\": " << JsonNumber(smooth)
+  json << (warnings.empty() ? "}" : "\n  }")
+       << ",\n  \"warning_sentences\": " << JsonStrings(warning_sentences) << ",\n  \"smooth\": " << JsonNumber(smooth)
        << ",\n  \"findings\": " << JsonFindings(findings) << ",\n  \"cables\": {";
   separator = "";
   for (const CableSummary& cable : cables) {

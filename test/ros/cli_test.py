@@ -239,6 +239,81 @@ cables:
         self.assertIn("joint 'travel'", status.message)
         self.assertIn("joint_limit: joint 'travel'", [pair.key for pair in status.values])
 
+    def rolling(self, *more, seconds=4, shift=0.0):
+        """A cart that rolls on at 2 m/s, 100 times a second, and `more` messages."""
+        return [*more, *[('/tf', 100 + i / 100,
+                          self.moved('odom', 'base_link', 100 + i / 100 + shift, 0.02 * i))
+                         for i in range(100 * seconds)]]
+
+    def test_an_edge_that_was_sent_once_is_refused(self):
+        bag = self.write_messages('once.bag', self.rolling(
+            ('/tf', 100.5, self.moved('map', 'odom', 100.5, 5))))
+        for name, text in (('v.urdf', self.CART), ('c.yaml', self.ARCH % 'base_link')):
+            with open(self.path(name), 'w') as target:
+                target.write(text)
+        self.refused('nothing would be simulated', 'map -> odom (/tf) has one sample only',
+                     '100.500 s (0.500 s after the start)', '/tf_static', '--world-frame odom',
+                     vehicle=self.path('v.urdf'), cables=self.path('c.yaml'), bag=bag)
+
+    def test_an_edge_that_ends_early_is_told(self):
+        bag = self.write_messages('early.bag', self.rolling(
+            *[('/tf', 100 + i, self.moved('map', 'odom', 100 + i, 5)) for i in range(4)]))
+        for result in self.judged(bag):
+            finding, = result['findings']
+            self.assertEqual((finding['kind'], finding['subject'], finding['topic']),
+                             ('limits_the_run', 'map -> odom', '/tf'))
+            self.assertAlmostEqual(finding['size'], 0.99)
+            self.assertAlmostEqual(finding['start'], 100)
+        self.assertAlmostEqual(result['simulated_time'], 3, 2)
+
+    def test_a_spike_of_one_sample_is_told(self):
+        messages = self.rolling()
+        messages[200][2].transforms[0].transform.translation.z = 0.01
+        for result in self.judged(self.write_messages('spike.bag', messages)):
+            finding, = result['findings']
+            self.assertEqual((finding['kind'], finding['subject']),
+                             ('outlier', 'odom -> base_link'))
+            self.assertAlmostEqual(finding['size'], 0.01, 4)
+            self.assertAlmostEqual(finding['worst'], 102)
+
+    def test_samples_that_do_not_count_are_told_with_time_size_and_remedy(self):
+        messages = self.rolling()
+        messages[100][2].transforms[0].transform.translation.y = math.nan
+        messages[150][2].transforms[0].transform.rotation.w = 3
+        messages[200][2].transforms[0].header.stamp = rospy.Time()
+        messages[250][2].transforms[0].header.stamp = rospy.Time(109)
+        messages += self.rolling(('/tf', 103, self.moved('map', 'base_link', 103, 0)), seconds=0)
+        bag = self.write_messages('bad.bag', messages)
+        self.judged(bag)
+        for tool, output in (('cable_check', []), ('cable_replay', ['--output', self.path('o.bag')])):
+            code, text = run(tool, '--vehicle', self.path('v.urdf'), '--cables',
+                             self.path('c.yaml'), '--bag', bag, *output)
+            self.assertEqual(code, 0, text)
+            for words in (
+                    "transform that is no rotation or not finite by /tf: 2 (first: 'odom' -> "
+                    "'base_link', its translation is not finite), at 101.000 s (1.000 s after the "
+                    "start): it is left out",
+                    "sample without a stamp by /tf: 1 (first: base_link), at 102.000 s (2.000 s "
+                    "after the start): --use-record-times",
+                    "sample with a bad stamp: 1 (first: frame 'base_link' by /tf, too late), at "
+                    "109.000 s (9.000 s after the start), by up to 6.5 s: it is left out",
+                    "frame 'base_link' has two parents: 1 (first: 'odom' by /tf is kept, 'map' by "
+                    "/tf is ignored), at 103.000 s (3.000 s after the start): stop one"):
+                self.assertIn(words, text, tool)
+
+    def test_recordings_in_a_loop_are_told(self):
+        messages = self.rolling() + [(topic, stamp + 4, message)
+                                     for topic, stamp, message in self.rolling()]
+        bag = self.write_messages('loop.bag', messages)
+        check, replay = self.judged(bag)
+        self.assertEqual(replay['resets'], 1)
+        code, text = run('cable_check', '--vehicle', self.path('v.urdf'), '--cables',
+                         self.path('c.yaml'), '--bag', bag)
+        self.assertIn("time ran backwards: 1 (first: frame 'base_link' from 103.989 s to 100.000 s), "
+                      'at 103.989 s (3.990 s after the start), by up to 3.99 s: all starts anew '
+                      'there', text)
+        self.assertIn('ok, but for 1 warning', text)
+
     # ---- Arguments.
 
     def test_unknown_option(self):

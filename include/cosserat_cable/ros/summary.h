@@ -55,6 +55,7 @@ struct Summary {
   std::uint64_t gaps = 0;                               ///< of the input
   double smooth = 0;  ///< cutoff of the links' motion [Hz]; 0: none
   std::map<std::string, std::uint64_t> warnings;
+  std::vector<std::string> warning_sentences;  ///< the same, with time, size and remedy
   Findings findings;  ///< what the input says that cannot be
   std::vector<CableSummary> cables;
 
