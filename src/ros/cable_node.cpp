@@ -165,6 +165,7 @@ ExitCode RunNode(const NodeOptions& options) {
     for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
     return kExitBadInput;
   }
+  for (const Problem& warning : inputs.vehicle.warnings.all()) ROS_WARN_STREAM(warning.ToString());
   for (const Problem& note : inputs.vehicle.notes.all()) ROS_WARN_STREAM(note.ToString());
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   std::vector<std::string> names;
@@ -220,6 +221,11 @@ ExitCode RunNode(const NodeOptions& options) {
       if (!reasons.empty()) {
         for (const auto& more : {engine.links().Advice(), UnreadTopics(topics)})
           reasons.insert(reasons.end(), more.begin(), more.end());
+      } else {
+        bool nothing = false;
+        const LinkMotion& links = engine.links();
+        for (const Finding& finding : links.CoverageFindings(links.world(), &nothing))
+          reasons.push_back(finding.ToString());
       }
       sink.ReportWaiting(engine.started(), reasons);
     }

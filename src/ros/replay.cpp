@@ -168,6 +168,8 @@ ExitCode RunReplay(ReplayOptions options) {
 
   Summary summary = engine.MakeSummary();
   summary.notes = Notes(inputs);
+  for (const Problem& warning : inputs.vehicle.warnings.all())
+    summary.warning_sentences.push_back(warning.ToString());
   summary.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.peak_memory = PeakMemory();
