@@ -399,7 +399,8 @@ Summary CableEngine::MakeSummary() const {
   summary.resets = resets_;
   summary.gaps = links_.gap_count();
   summary.warnings = links_.warnings().counts();
-  summary.warning_sentences = links_.warnings().Sentences(options_.links.judge ? 0 : links_.Start());
+  summary.warning_sentences =
+      links_.warnings().Sentences(options_.links.judge ? 0 : links_.Start());
   summary.findings = AllFindings();
   summary.smooth = options_.links.smooth;
   for (const auto& cable : cables_) summary.cables.push_back(cable->summary());

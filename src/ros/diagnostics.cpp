@@ -71,8 +71,7 @@ DiagnosticStatus InputDiagnostics(const LinkMotion& links, std::uint64_t resets,
     AddValue("smoothed below [Hz]", smooth, &status);
     AddValue("latency of smoothing [s]", EdgeSmoother::Latency(smooth), &status);
   }
-  for (const auto& [kind, count] : counts)
-    AddValue(kind, links.warnings().Sentence(kind), &status);
+  for (const auto& [kind, count] : counts) AddValue(kind, links.warnings().Sentence(kind), &status);
   for (const Finding& finding : findings)
     AddValue(finding.kind + ": " + finding.subject, finding.ToString(), &status);
   return status;

@@ -15,6 +15,7 @@
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/vehicle/joint_positions.h"
+#include "cosserat_cable/vehicle/upright_judge.h"
 #include "imu_gravity.h"
 
 namespace cosserat_cable {
@@ -98,12 +99,23 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   LinkMotionOptions link_options = options.links;
   LinkMotion links(inputs->vehicle, needed, link_options);
   std::uint64_t messages = 0;
+  // Who says that gravity points elsewhere knows what is up.
+  UprightJudge upright(options.gravity_W == kGravityDown ? options.gravity_W
+                                                         : Eigen::Vector3d::Zero());
+  const auto look = [&] {
+    if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
+      upright.Add(links.last_stamp(), X_WR->q);
+  };
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &links);
-    if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
+    if (++messages % kDropInterval == 0) {
+      links.DropBefore(links.last_stamp() - kSurveyHistory);
+      look();
+    }
     return true;
   });
   links.Finish();
+  look();
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason);
   }
@@ -131,6 +143,8 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   bool nothing = false;
   survey.findings = links.CoverageFindings(survey.world, &nothing);
   for (Finding& finding : links.MotionFindings(survey.world))
+    survey.findings.push_back(std::move(finding));
+  for (Finding& finding : upright.Report(inputs->vehicle.root, survey.world))
     survey.findings.push_back(std::move(finding));
   for (Finding& finding : survey.findings) finding.start = links.Start();
   for (const auto& [child, edge] : survey.edges) {

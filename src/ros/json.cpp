@@ -59,10 +59,9 @@ std::string JsonFindings(const Findings& findings) {
         ", \"topic\": " + JsonString(finding.topic) +
         ", \"count\": " + std::to_string(finding.count) + ", \"first\": " + Stamp(finding.first) +
         ", \"worst\": " + Stamp(finding.worst) + ", \"start\": " + Stamp(finding.start) +
-        ", \"size\": " + JsonNumber(finding.size) +
-        ", \"limit\": " + JsonNumber(finding.limit) + ", \"unit\": " + JsonString(finding.unit) +
-        ", \"what\": " + JsonString(finding.what) + ", \"remedy\": " + JsonString(finding.remedy) +
-        "}";
+        ", \"size\": " + JsonNumber(finding.size) + ", \"limit\": " + JsonNumber(finding.limit) +
+        ", \"unit\": " + JsonString(finding.unit) + ", \"what\": " + JsonString(finding.what) +
+        ", \"remedy\": " + JsonString(finding.remedy) + "}";
   }
   return json + (findings.empty() ? "]" : "\n  ]");
 }

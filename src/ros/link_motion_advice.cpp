@@ -12,11 +12,13 @@ namespace {
 
 // Nobody misses less of a recording [s], or a smaller part of it, unless that is a large part.
 constexpr double kLeastLost = 0.2, kLeastShare = 0.01, kLargeShare = 0.2;
+// All that is recorded within this is one instant [s].
+constexpr double kInstant = 0.01;
 // Both ends are off by the same: a clock [s].
 constexpr double kSameShift = 0.1;
 // Clocks of one machine agree within this, messages arrive within it; localisations take long, and
 // their transforms are stamped ahead [s].
-constexpr double kSameClock = 0.25, kSameClockAbove = 1.0;
+constexpr double kSameClock = 0.15, kSameClockAbove = 1.0;
 constexpr std::uint64_t kFewestDelays = 5;
 
 double ToSeconds(std::int64_t time) { return static_cast<double>(time) * 1e-9; }
@@ -70,10 +72,10 @@ std::string LinkMotion::Option(const std::string& name, const std::string& value
 }
 
 std::string LinkMotion::UseRecordTimes() const {
-  return options_.is_node
-             ? "~use_record_times takes the times at which messages arrive"
-             : "--use-record-times (live: ~use_record_times) takes the times at which messages were "
-               "recorded";
+  return options_.is_node ? "~use_record_times takes the times at which messages arrive"
+                          : "--use-record-times (live: ~use_record_times) takes the times at which "
+                            "messages were "
+                            "recorded";
 }
 
 std::string LinkMotion::NoCommonRoot() const {
@@ -98,7 +100,8 @@ std::string LinkMotion::NoCommonRoot() const {
 
 std::set<std::string> LinkMotion::Above(const std::string& world) const {
   std::set<std::string> above = {world};
-  for (auto edge = edges_.find(world); edge != edges_.end(); edge = edges_.find(edge->second.parent))
+  for (auto edge = edges_.find(world); edge != edges_.end();
+       edge = edges_.find(edge->second.parent))
     if (!above.insert(edge->second.parent).second) break;
   return above;
 }
@@ -137,11 +140,13 @@ void LinkMotion::AddClockFindings(const std::set<std::string>& above, Findings* 
   std::map<Source, std::vector<std::string>> off;  // edges
   std::map<Source, std::size_t> judged;
   for (const auto& [child, edge] : edges_) {
-    if (!edge.is_followed || above.count(child) > 0 || edge.delays.count() < kFewestDelays) continue;
+    if (!edge.is_followed || above.count(child) > 0 || edge.delays.count() < kFewestDelays)
+      continue;
     ++judged[edge.source];
     const double delay = ToSeconds(edge.delays.Median() - usual);
     const bool is_above = !vehicle_.HasLink(child);
-    if (std::abs(delay) > (is_above ? kSameClockAbove : kSameClock)) off[edge.source].push_back(child);
+    if (std::abs(delay) > (is_above ? kSameClockAbove : kSameClock))
+      off[edge.source].push_back(child);
   }
   for (const auto& [source, children] : off) {
     const auto delay_of = [&](const std::string& child) {
@@ -160,9 +165,10 @@ void LinkMotion::AddClockFindings(const std::set<std::string>& above, Findings* 
     finding.what = "is stamped " + Printed("%.3g s ", std::abs(delay)) +
                    (delay > 0 ? "behind" : "ahead of") +
                    " the other topics, by the times at which both were recorded";
-    finding.remedy = "do its stamps come from another clock, or are they of publishing? set the "
-                     "clocks by one another, or " +
-                     UseRecordTimes();
+    finding.remedy =
+        "do its stamps come from another clock, or are they of publishing? set the "
+        "clocks by one another, or " +
+        UseRecordTimes();
     finding.count = edges_.at(worst).delays.count();
     finding.first = finding.worst = edges_.at(worst).first;
     finding.size = delay;
@@ -213,7 +219,8 @@ void LinkMotion::AddGapFindings(const std::set<std::string>& above, Findings* fi
 Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) const {
   *nothing = false;
   const std::set<std::string> above = Above(world);
-  std::map<std::pair<Source, std::pair<std::int64_t, std::int64_t>>, std::vector<std::string>> alike;
+  std::map<std::pair<Source, std::pair<std::int64_t, std::int64_t>>, std::vector<std::string>>
+      alike;
   std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
   std::int64_t begin = 0, end = first;
   for (const auto& [child, edge] : edges_) {
@@ -229,10 +236,20 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
   // Not only what links depend on says how long the recording is.
   const double whole = ToSeconds(std::max(last, last_stamp_) - first);
   const double kept = ToSeconds(end - begin);
-  *nothing = kept <= 0 && whole > kLeastLost;
+  *nothing = kept <= 0 && whole > kInstant;
+  if (whole <= kInstant) {
+    Finding finding;
+    finding.kind = "one_instant";
+    finding.subject = "the recording";
+    finding.what = "has one instant only: cables settle, and no time is simulated";
+    finding.remedy = "record the motion, not only where the vehicle stands";
+    finding.count = 1;
+    finding.first = finding.worst = first;
+    return {finding};
+  }
   const auto is_lost = [&](double time) {
     return (time > kLeastLost && time > kLeastShare * whole) ||
-           (time > kLargeShare * whole && time > 0.01);
+           (time > kLargeShare * whole && time > kInstant);
   };
   Findings findings;
   for (const auto& [known, children] : alike) {
@@ -276,13 +293,14 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
       continue;
     }
     const JointModel* joint = JointAbove(children[0]);
-    finding.remedy = edge.moves ? "record it to the end"
-                                : "if it never changes, publish it on " + ToString(Source::kTfStatic) +
-                                      "; if it moves, record all of it";
+    finding.remedy = edge.moves
+                         ? "record it to the end"
+                         : "if it never changes, publish it on " + ToString(Source::kTfStatic) +
+                               "; if it moves, record all of it";
     if (joint != nullptr && joint->type != JointModel::Type::kFixed) {
-      finding.remedy += ", or keep its joint at rest by " +
-                        (options_.is_node ? "~hold_joints: [" + joint->name + "]"
-                                          : "--hold " + joint->name);
+      finding.remedy +=
+          ", or keep its joint at rest by " +
+          (options_.is_node ? "~hold_joints: [" + joint->name + "]" : "--hold " + joint->name);
     } else if (!vehicle_.HasLink(children[0]) || children[0] == vehicle_.root) {
       finding.remedy +=
           ", or take the frame below as inertial by " + Option("world-frame", children[0]);

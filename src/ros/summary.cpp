@@ -116,7 +116,8 @@ std::string Summary::ToJson() const {
     separator = ",";
   }
   json << (warnings.empty() ? "}" : "\n  }")
-       << ",\n  \"warning_sentences\": " << JsonStrings(warning_sentences) << ",\n  \"smooth\": " << JsonNumber(smooth)
+       << ",\n  \"warning_sentences\": " << JsonStrings(warning_sentences)
+       << ",\n  \"smooth\": " << JsonNumber(smooth)
        << ",\n  \"findings\": " << JsonFindings(findings) << ",\n  \"cables\": {";
   separator = "";
   for (const CableSummary& cable : cables) {

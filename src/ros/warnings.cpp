@@ -46,8 +46,7 @@ std::string Warnings::Sentence(const std::string& kind, std::int64_t start) cons
   if (known.first.stamp != 0) text += ", at " + StampText(known.first.stamp, start);
   if (known.largest != 0) {
     text += ", by up to " + Printed("%.3g ", known.largest) + known.first.unit;
-    if (known.largest_at != known.first.stamp)
-      text += " at " + StampText(known.largest_at, start);
+    if (known.largest_at != known.first.stamp) text += " at " + StampText(known.largest_at, start);
   }
   if (known.subjects.size() > 1) {
     text += ", of ";
@@ -60,7 +59,8 @@ std::string Warnings::Sentence(const std::string& kind, std::int64_t start) cons
 
 std::vector<std::string> Warnings::Sentences(std::int64_t start) const {
   std::vector<std::string> sentences;
-  for (const auto& [kind, count] : counts_) sentences.push_back(kind + ": " + Sentence(kind, start));
+  for (const auto& [kind, count] : counts_)
+    sentences.push_back(kind + ": " + Sentence(kind, start));
   return sentences;
 }
 

@@ -20,8 +20,8 @@ constexpr double kLeastShare = 0.05;
 // An event that is no larger than this, in the largest acceleration of rough samples, is one of
 // them.
 constexpr double kFarBeyond = 3;
-// Samples closer together than this part of the mean interval are no motion: the curve leaves one of
-// them out, see PoseCurve.
+// Samples closer together than this part of the mean interval are no motion: the curve leaves one
+// of them out, see PoseCurve.
 constexpr double kTooClose = 0.25;
 // An outlier or a bad stamp makes up to so many large accelerations and jumps.
 constexpr std::uint64_t kEventsOfOne = 4;
@@ -58,17 +58,18 @@ MotionLimits RotationLimits(EdgeRole role) {
   return {20e-3, 200, 20, 10, 4000};
 }
 
-// Of single samples that their neighbours do not explain: what a cable hardly answers to is no fault.
+// Of single samples that their neighbours do not explain: what a cable hardly answers to is no
+// fault.
 OutlierLimits LimitsOfOne(EdgeRole role, bool translation) {
   switch (role) {
     case EdgeRole::kAboveVehicle:
       return translation ? OutlierLimits{1e-3, 0.5} : OutlierLimits{1e-3, 1};
     case EdgeRole::kBody:
-      return translation ? OutlierLimits{1e-3, 20} : OutlierLimits{2e-3, 40};
+      return translation ? OutlierLimits{1e-3, 10} : OutlierLimits{2e-3, 20};
     case EdgeRole::kJoint:
       break;
   }
-  return translation ? OutlierLimits{1e-3, 50} : OutlierLimits{3e-3, 100};
+  return translation ? OutlierLimits{1e-3, 20} : OutlierLimits{3e-3, 50};
 }
 
 // The rotation from one pose to the next, in the first one's axes.
@@ -179,9 +180,9 @@ bool EdgeJudge::MovesByJumps() const {
 }
 
 Finding EdgeJudge::Corrections(const std::string& subject, const std::string& topic) const {
-  const MotionChannel* channel = impl_->Worse(
-      [](const auto& c) { return c.MovesByJumps(); },
-      [](const auto& c) { return c.largest_step().size / c.limits().jump; });
+  const MotionChannel* channel =
+      impl_->Worse([](const auto& c) { return c.MovesByJumps(); },
+                   [](const auto& c) { return c.largest_step().size / c.limits().jump; });
   const MotionChannel::Tally& largest = channel->largest_step();
   Finding finding = impl_->Start("jump", largest);
   finding.first = finding.worst;
@@ -314,8 +315,8 @@ void EdgeJudge::Impl::ReportJump(const MotionChannel* channel, Finding finding, 
   finding.what = finding.count == 1
                      ? "jumps by " + size
                      : "jumps " + std::to_string(finding.count) + " times, by up to " + size;
-  finding.what += " from one sample to the next (" + Printed("%.3g ", acceleration) + finding.unit +
-                  "/s^2)";
+  finding.what +=
+      " from one sample to the next (" + Printed("%.3g ", acceleration) + finding.unit + "/s^2)";
   finding.remedy =
       role == EdgeRole::kJoint
           ? "was its encoder reset, or are these outliers? cut the recording there (--start, "
@@ -334,10 +335,9 @@ void EdgeJudge::Impl::ReportOutliers(Findings* findings) const {
   finding.limit = LimitsOfOne(role, channel == &translation).size;
   finding.unit = Unit(channel);
   const std::string size = SizeText(channel, finding.size);
-  finding.what = finding.count == 1
-                     ? "jumps by " + size + " and back at once"
-                     : "jumps " + std::to_string(finding.count) + " times and back at once, by up to " +
-                           size;
+  finding.what = finding.count == 1 ? "jumps by " + size + " and back at once"
+                                    : "jumps " + std::to_string(finding.count) +
+                                          " times and back at once, by up to " + size;
   finding.what += " (" + Printed("%.3g ", outliers.acceleration) + finding.unit +
                   "/s^2; the motion around it explains " + SizeText(channel, outliers.usual) + ")";
   finding.remedy =
@@ -356,9 +356,9 @@ void EdgeJudge::Impl::ReportStamps(Findings* findings) const {
   finding.size = stamps.lateness;
   finding.limit = kTooClose * period();
   finding.unit = "s";
-  finding.what = finding.count == 1 ? "has a sample with a bad stamp"
-                                    : "has " + std::to_string(finding.count) +
-                                          " samples with bad stamps";
+  finding.what = finding.count == 1
+                     ? "has a sample with a bad stamp"
+                     : "has " + std::to_string(finding.count) + " samples with bad stamps";
   finding.what += ", " + Printed("%.3g ms too ", 1e3 * std::abs(stamps.lateness)) +
                   (stamps.lateness > 0 ? "late" : "early") + ": it is " +
                   SizeText(channel, stamps.size) + " off there, and on its way at an even time";
@@ -370,8 +370,8 @@ void EdgeJudge::Impl::ReportAccelerations(Findings* findings) const {
   // A jump is an acceleration too: it is told once.
   const MotionChannel* channel = Worse(
       [this](const auto& c) {
-        return c.accelerations().count > 0 && c.jumps().count == 0 &&
-               Singles(c).steps.count == 0 && !IsSingle(c, c.accelerations().count) &&
+        return c.accelerations().count > 0 && c.jumps().count == 0 && Singles(c).steps.count == 0 &&
+               !IsSingle(c, c.accelerations().count) &&
                !IsExplained(c, c.accelerations().acceleration);
       },
       [](const auto& c) { return c.accelerations().size / c.limits().acceleration; });

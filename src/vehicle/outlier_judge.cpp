@@ -132,8 +132,7 @@ double OutlierJudge::Roughness(int begin, int end, int channel) const {
 }
 
 bool OutlierJudge::IsFarBeyond(double size, double usual, int channel) const {
-  const double all =
-      count_[channel] > 0 ? sum_[channel] / static_cast<double>(count_[channel]) : 0;
+  const double all = count_[channel] > 0 ? sum_[channel] / static_cast<double>(count_[channel]) : 0;
   return size > limits_[channel].size && size > kBeyondNeighbours * usual &&
          size > kBeyondUsual * all;
 }
@@ -182,7 +181,8 @@ OutlierJudge::Event OutlierJudge::JudgeStep(int first, int channel) const {
   double t[2 * kSide];
   if (!Look(first - kSide, 2 * kSide, channel, &p, t)) return event;
   const double middle = (t[kSide - 1] + t[kSide]) / 2;
-  const Extrapolated left = Parabola(&p[0], t, middle), right = Parabola(&p[kSide], t + kSide, middle);
+  const Extrapolated left = Parabola(&p[0], t, middle),
+                     right = Parabola(&p[kSide], t + kSide, middle);
   const Eigen::Vector3d step = right.p - left.p;
   const double size = step.norm();
   const double usual = Roughness(first, first, channel);
@@ -221,7 +221,8 @@ OutlierJudge::Event OutlierJudge::JudgeStamp(int at, int channel) const {
   if (!IsFarBeyond(size, usual, channel)) return event;
   const double acceleration = 2 * size / (h * h);
   if (acceleration < limits_[channel].acceleration) return event;
-  for (const double time : {(t[kSide - 1] + t[kSide + 1]) / 2, t[kSide - 1] + h, t[kSide + 1] - h}) {
+  for (const double time :
+       {(t[kSide - 1] + t[kSide + 1]) / 2, t[kSide - 1] + h, t[kSide + 1] - h}) {
     const double lateness = t[kSide] - time;
     if (std::abs(lateness) < kEven * h || off(time) > kOnPath * size) continue;
     if (event.kind != Event::Kind::kNone && std::abs(event.lateness) < std::abs(lateness)) continue;

@@ -1,9 +1,9 @@
-// Single samples of one edge that its neighbours do not explain, whatever their size: poses that are
-// left and taken back at once, steps from one sample to the next, and stamps that are off.
+// Single samples of one edge that its neighbours do not explain, whatever their size: poses that
+// are left and taken back at once, steps from one sample to the next, and stamps that are off.
 //
 // A sample is compared with the parabolas through the three samples before and the three behind it.
-// Where both agree with each other in place and in velocity, and the sample is far off them, it is an
-// outlier. What is far off is learnt from the same difference of all other samples: rough roads,
+// Where both agree with each other in place and in velocity, and the sample is far off them, it is
+// an outlier. What is far off is learnt from the same difference of all other samples: rough roads,
 // noise and encoder steps have it all the time.
 #pragma once
 

@@ -183,10 +183,11 @@ TEST(EdgeJudge, ASmallSpikeOfOneSampleIsToldWithTimeAndSize) {
 }
 
 TEST(EdgeJudge, SpikesOfARotationAreToldToo) {
-  const Findings findings = Found(EdgeRole::kJoint, {100, 10, [](double t) {
-                                                       const int i = static_cast<int>(std::lround(100 * t));
-                                                       return At(0, 5 * t + (i % 300 == 299 ? 0.05 : 0));
-                                                     }});
+  const Findings findings =
+      Found(EdgeRole::kJoint, {100, 10, [](double t) {
+                                 const int i = static_cast<int>(std::lround(100 * t));
+                                 return At(0, 5 * t + (i % 300 == 299 ? 0.05 : 0));
+                               }});
   ASSERT_EQ(Kinds(findings), "outlier");
   EXPECT_EQ(findings[0].count, 3u);
   EXPECT_EQ(findings[0].unit, "rad");
@@ -227,8 +228,8 @@ TEST(EdgeJudge, HolesAreNoBadStamps) {
 TEST(EdgeJudge, NoiseHasNoSpikes) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0, 3e-4);
-  const Findings findings = Found(
-      EdgeRole::kJoint, {100, 600, [&](double t) { return At(Rough(t) + noise(random)); }});
+  const Findings findings =
+      Found(EdgeRole::kJoint, {100, 600, [&](double t) { return At(Rough(t) + noise(random)); }});
   EXPECT_EQ(Kinds(findings), "");
 }
 

@@ -67,8 +67,8 @@ class CableEngine {
   ~CableEngine();
 
   /// `publisher`: the node's name. `recorded`: the time of recording or arrival [ns]; 0: not known.
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
-              const std::string& publisher = "", std::int64_t recorded = 0);
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher = "",
+              std::int64_t recorded = 0);
   void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "",
               std::int64_t recorded = 0);
   /// No more samples will come: Advance then goes up to the last.

@@ -87,8 +87,8 @@ class LinkMotion {
   /// first of the new run. One alone has a bad stamp. Samples that cannot be used are counted in
   /// `warnings`. `publisher`: the node's name. `recorded`: the time of recording, or of arrival
   /// [ns]; 0: not known.
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
-              const std::string& publisher = "", std::int64_t recorded = 0);
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher = "",
+              std::int64_t recorded = 0);
   void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "",
               std::int64_t recorded = 0);
   /// No more samples will come.
@@ -108,6 +108,9 @@ class LinkMotion {
   /// together for less. To be asked once all samples are there. `nothing`: set where they are known
   /// together at one instant at most, though more than that was recorded.
   Findings CoverageFindings(const std::string& world, bool* nothing) const;
+  /// The latest pose of a frame in one above it, by the last samples of all edges between; nothing
+  /// where one is missing.
+  std::optional<Pose> LatestPose(const std::string& ancestor, const std::string& frame) const;
   /// The stamp at which the recording begins [ns]; 0: not known.
   std::int64_t Start() const;
   /// The inertial frame to be taken: world(), or a frame below it where a localisation corrects the

@@ -25,8 +25,9 @@ class Warnings {
   void Count(const std::string& kind, const std::string& detail = "");
 
   const std::map<std::string, std::uint64_t>& counts() const { return counts_; }
-  /// A sentence for each kind: how many there were, the first one's detail and time, which frames or
-  /// joints have it, the largest size, and the remedy. `start` [ns]: of the recording; 0: not known.
+  /// A sentence for each kind: how many there were, the first one's detail and time, which frames
+  /// or joints have it, the largest size, and the remedy. `start` [ns]: of the recording; 0: not
+  /// known.
   std::vector<std::string> Sentences(std::int64_t start = 0) const;
   /// The sentence of one kind, without its name: "51 (first: frame 'x'), at 10.000 s: ...".
   std::string Sentence(const std::string& kind, std::int64_t start = 0) const;

@@ -30,8 +30,8 @@ struct Finding {
 
 using Findings = std::vector<Finding>;
 
-/// A stamp [ns] as people read it: "1000.005 s", and with the recording's begin `start`, unless that
-/// is 0: "1000.005 s (0.005 s after the start)".
+/// A stamp [ns] as people read it: "1000.005 s", and with the recording's begin `start`, unless
+/// that is 0: "1000.005 s (0.005 s after the start)".
 std::string StampText(std::int64_t stamp, std::int64_t start = 0);
 
 /// `format` for one number, as printf has it.
