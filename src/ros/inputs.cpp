@@ -44,6 +44,8 @@ void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs&
     const double chord = (X_WB.p - X_WA.p).norm();
     survey->chords.push_back(chord);
     CheckClampDistance(cable, marks, chord, problems);
+    const std::string inside = ClampsInside(cable, X_WA, X_WB);
+    if (!inside.empty()) survey->warnings.push_back("cable '" + cable.name + "': " + inside);
     for (const std::string& link : cable.avoid) {
       const Body* body = FindBody(inputs.bodies, cable, link);
       if (!body) continue;
