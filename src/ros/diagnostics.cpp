@@ -26,6 +26,7 @@ DiagnosticStatus CableDiagnostics(const CableSummary& cable, bool failed,
   status.hardware_id = "none";
   std::string warning = cable.DepthWarning();
   if (warning.empty()) warning = cable.long_elements;
+  if (warning.empty()) warning = cable.rest_remark;
   status.level = failed            ? DiagnosticStatus::ERROR
                  : warning.empty() ? DiagnosticStatus::OK
                                    : DiagnosticStatus::WARN;

@@ -83,6 +83,7 @@ std::string Summary::ToText() const {
     text << line;
     if (cable.stiffness_needed > 0) text << "  warning: " << cable.DepthWarning() << "\n";
     if (!cable.long_elements.empty()) text << "  warning: " << cable.long_elements << "\n";
+    if (!cable.rest_remark.empty()) text << "  warning: " << cable.rest_remark << "\n";
     if (EnergyError(cable) > kLacksTooMuch)
       text << "  warning: its energy balance is off by " << Format("%.3g", cable.energy_residual)
            << " J, " << Format("%.0f", 100 * EnergyError(cable))
@@ -129,6 +130,8 @@ std::string Summary::ToJson() const {
          << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
          << ", \"bodies\": " << cable.bodies << ", \"long_elements\": "
          << (cable.long_elements.empty() ? "null" : JsonString(cable.long_elements))
+         << ", \"rest_remark\": "
+         << (cable.rest_remark.empty() ? "null" : JsonString(cable.rest_remark))
          << ", \"contact_stiffness\": " << JsonNumber(cable.contact_stiffness)
          << ", \"penetration_max\": " << JsonNumber(cable.penetration_max)
          << ", \"penetration_share_of_radius\": "

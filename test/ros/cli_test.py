@@ -478,6 +478,56 @@ cables:
             self.assertIsNone(loom['contact_stiffness_needed'])
             self.assertNotIn('sinks', text)
 
+    # ---- Where cables come to rest.
+
+    def arch(self, change):
+        """Check and replay of the arch on a cart that stands still: exit code and text of each."""
+        bag = self.write_messages('still.bag', [
+            ('/tf', 10 + i / 100, self.moved('odom', 'base_link', 10 + i / 100, 0))
+            for i in range(101)])
+        for name, text in (('v.urdf', self.CART), ('c.yaml', change(self.ARCH % 'base_link'))):
+            with open(self.path(name), 'w') as target:
+                target.write(text)
+        return [run(tool, '--vehicle', self.path('v.urdf'), '--cables', self.path('c.yaml'),
+                    '--bag', bag, *output)
+                for tool, output in (('cable_check', []),
+                                     ('cable_replay', ['--output', self.path('o.bag')]))]
+
+    def test_an_obstacle_that_holds_the_clamps_inside_is_told(self):
+        plane = '    extensions: {contact: {plane: {azimuth: 0, elevation: 1.5707963, offset: 0.05}}}\n'
+        (code, text), (replay_code, replay_text) = self.arch(lambda text: text + plane)
+        self.assertEqual((code, replay_code), (0, 0), text + replay_text)
+        inside = ('the obstacle of extensions.contact holds the cable: clamp a is 52.5 mm inside, '
+                  'clamp b is 52.5 mm inside')
+        self.assertIn("warning: cable 'lead': " + inside, text)
+        self.assertIn('ok, but for 1 warning', text)
+        self.assertIn("cable 'lead': " + inside, replay_text)
+        self.assertIn('warning: ' + inside, replay_text)
+        # Also where no equilibrium is found against it.
+        for azimuth, elevation in ((0, 0), (1.5707963, 0), (0, -1.5707963)):
+            other = ('    extensions: {contact: {plane: {azimuth: %g, elevation: %g, offset: 0.3}, '
+                     'stiffness: 1.0e7}}\n' % (azimuth, elevation))
+            _, (_, replay_text) = self.arch(lambda text: text + other)
+            self.assertIn('clamp a is 302 mm inside', replay_text)
+            self.assertNotIn('too far apart', replay_text)
+
+    def test_a_cable_that_would_balance_falls_and_says_so(self):
+        def standing(text):
+            for old, new in (('[0, 0, 1, 1, 0, 0, 0]', '[0, 0, 1, 0, 0, 0, 1]'),
+                             ('[0, 0.2, 1, 0, 0, 0, 1]', '[0.2, 0, 1, 0, 1, 0, 0]'),
+                             ('mass_per_length: 0.03', 'mass_per_length: 0.2'),
+                             ('EI: 2.5e-3', 'EI: 1.0e-3')):
+                self.assertIn(old, text)
+                text = text.replace(old, new)
+            return text
+        _, (code, text) = self.arch(standing)
+        self.assertEqual(code, 0, text)
+        self.assertIn("cable 'lead': it would balance in an unstable equilibrium", text)
+        self.assertIn('warning: it would balance', text)
+        self.assertNotIn('energy balance', text)
+        _, (code, text) = self.arch(lambda text: text)
+        self.assertNotIn('equilibrium', text)
+
     # ---- Recordings.
 
     def test_missing_bag(self):

@@ -36,6 +36,7 @@ struct CableSummary {
   double stiffness_needed =
       0;                      ///< where that was too deep: a contact stiffness that would do [N/m]
   std::string long_elements;  ///< see TooLongElements; empty where they are short enough
+  std::string rest_remark;  ///< on its first equilibrium, see StepOutcome; empty where it is stable
   std::string failure;        ///< empty while all is well
   ClampJudge::Range clamps;   ///< how they moved to one another
 
