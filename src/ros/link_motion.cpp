@@ -228,6 +228,7 @@ Findings LinkMotion::MotionFindings(const std::string& world) const {
   Findings findings = judge_->Report(WayAboveVehicle(), world);
   const std::set<std::string> above = Above(world);
   AddClockFindings(above, &findings);
+  AddDriftFindings(above, &findings);
   AddGapFindings(above, &findings);
   return findings;
 }

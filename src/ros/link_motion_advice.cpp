@@ -20,6 +20,8 @@ constexpr double kSameShift = 0.1;
 // their transforms are stamped ahead [s].
 constexpr double kSameClock = 0.15, kSameClockAbove = 1.0;
 constexpr std::uint64_t kFewestDelays = 5;
+// Between the begin of a recording and its end, clocks stay together within this [s].
+constexpr double kSameChange = 0.1;
 
 double ToSeconds(std::int64_t time) { return static_cast<double>(time) * 1e-9; }
 
@@ -173,6 +175,45 @@ void LinkMotion::AddClockFindings(const std::set<std::string>& above, Findings* 
     finding.first = finding.worst = edges_.at(worst).first;
     finding.size = delay;
     finding.limit = kSameClock;
+    finding.unit = "s";
+    findings->push_back(std::move(finding));
+  }
+}
+
+// A clock that goes at another rate than the others', or was set while one topic was recorded.
+void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* findings) const {
+  if (options_.topics.use_record_times) return;
+  std::map<Source, std::vector<std::string>> topics;
+  for (const auto& [child, edge] : edges_)
+    if (edge.is_followed && above.count(child) == 0 && edge.delays.count() > 0)
+      topics[edge.source].push_back(child);
+  const auto change_of = [&](const std::string& child) { return edges_.at(child).delays.Change(); };
+  std::map<Source, std::pair<std::int64_t, std::string>> changes;  // the middle one of each topic
+  std::int64_t least = std::numeric_limits<std::int64_t>::max();
+  for (auto& [source, children] : topics) {
+    std::sort(children.begin(), children.end(), [&](const auto& a, const auto& b) {
+      return std::make_pair(change_of(a), a) < std::make_pair(change_of(b), b);
+    });
+    const std::string& middle = children[children.size() / 2];
+    changes[source] = {change_of(middle), middle};
+    if (std::abs(change_of(middle)) < std::abs(least)) least = change_of(middle);
+  }
+  for (const auto& [source, change] : changes) {
+    const double seconds = ToSeconds(change.first - least);
+    if (std::abs(seconds) < kSameChange) continue;
+    const Edge& edge = edges_.at(change.second);
+    Finding finding;
+    finding.kind = "clock_drifts";
+    finding.subject = finding.topic = ToString(source);
+    finding.what = "is stamped " + Printed("%.3g s ", std::abs(seconds)) +
+                   (seconds > 0 ? "farther behind" : "farther ahead of") +
+                   " the other topics at its end than at its begin, by the times of recording";
+    finding.remedy =
+        "does its clock go at another rate, or was it set meanwhile? " + UseRecordTimes();
+    finding.count = edge.delays.count();
+    finding.first = finding.worst = edge.last;
+    finding.size = seconds;
+    finding.limit = kSameChange;
     finding.unit = "s";
     findings->push_back(std::move(finding));
   }
@@ -346,11 +387,15 @@ std::vector<std::string> LinkMotion::Advice() const {
                         " have no stamp and are left out, others have one: " + UseRecordTimes() +
                         " of all");
   }
-  const auto repeated = warnings_.counts().find("sample repeated with the same stamp");
-  for (const auto& [child, edge] : edges_) {
-    if (edge.samples != 1 || !edge.is_followed || repeated == warnings_.counts().end()) continue;
-    sentences.push_back("all samples of frame '" + child + "' by " + ToString(edge.source) +
-                        " have one and the same stamp: " + UseRecordTimes());
+  std::map<Source, std::vector<std::string>> frozen;
+  if (warnings_.counts().count("sample repeated with the same stamp") > 0)
+    for (const auto& [child, edge] : edges_)
+      if (edge.samples == 1 && edge.is_followed) frozen[edge.source].push_back(child);
+  for (const auto& [source, children] : frozen) {
+    sentences.push_back(
+        "all samples of frame '" + children[0] + "'" +
+        (children.size() > 1 ? " and of " + std::to_string(children.size() - 1) + " more" : "") +
+        " by " + ToString(source) + " have one and the same stamp: " + UseRecordTimes());
   }
   PrefixCounts frames, joints;
   const auto count_frame = [&](const std::string& frame) {

@@ -19,6 +19,12 @@ constexpr double kLongInterval = 1.5, kTooClose = 0.25;
 constexpr std::uint64_t kKnowsTheRate = 4;  // samples
 // Later samples with earlier stamps say that its own is wrong.
 constexpr int kOvertaken = 3;
+constexpr std::int64_t kDelayRounding = 1'000'000;  // [ns]
+// More bad stamps are no single ones: then all samples count, as they are.
+constexpr std::uint64_t kFewBadStamps = 4;
+constexpr double kShareOfHabit = 0.05;
+// A first stamp so far off the second one, though both were recorded together, is wrong [ns].
+constexpr std::int64_t kFirstOff = 500'000'000;
 // At the end nothing confirms it [usual intervals], [ns].
 constexpr double kLongAtTheEnd = 4;
 constexpr double kLongestAtTheEnd = 0.5e9;
@@ -124,7 +130,13 @@ void LinkMotion::ResolveHeld(Edge* edge, const std::string& child, const Sample&
   const Sample held = *edge->held;
   const double usual = edge->usual_interval;
   const auto interval = static_cast<double>(sample.stamp - held.stamp);
-  if (interval >= kTooClose * usual) {
+  // A stamp that is too late comes with a message that was recorded too soon for it.
+  const bool is_on_time = held.recorded > 0 && edge->delays.count() > 0 &&
+                          held.recorded - held.stamp > edge->least_delay - kDelayRounding;
+  const bool is_habit =
+      edge->bad_stamps > kFewBadStamps &&
+      static_cast<double>(edge->bad_stamps) > kShareOfHabit * static_cast<double>(edge->samples);
+  if (interval >= kTooClose * usual || (interval > 0 && is_on_time) || is_habit) {
     edge->held.reset();
     Take(edge, child, held);
     return;
@@ -132,9 +144,10 @@ void LinkMotion::ResolveHeld(Edge* edge, const std::string& child, const Sample&
   // Messages may overtake each other.
   const bool overtook =
       interval < 0 && static_cast<double>(sample.stamp - edge->last) <= kLongInterval * usual;
+  if (interval < 0 && is_on_time) return;
   if (overtook && ++edge->held->overtaken < kOvertaken) return;
   edge->held.reset();
-  CountBadStamp(child, *edge, held.stamp,
+  CountBadStamp(child, edge, held.stamp,
                 static_cast<double>(held.stamp - edge->last) - std::max(usual, 0.0));
 }
 
@@ -173,18 +186,19 @@ void LinkMotion::ForgetEarly(const std::string& child) {
   const auto is_its = [&](const Early& early) { return early.child == child; };
   for (const Early& early : early_) {
     if (!is_its(early)) continue;
-    const Edge& edge = edges_.at(child);
+    Edge* edge = &edges_.at(child);
     CountBadStamp(
         child, edge, early.sample.stamp,
-        static_cast<double>(early.sample.stamp - early.last) - std::max(edge.usual_interval, 0.0));
+        static_cast<double>(early.sample.stamp - early.last) - std::max(edge->usual_interval, 0.0));
   }
   early_.erase(std::remove_if(early_.begin(), early_.end(), is_its), early_.end());
 }
 
-void LinkMotion::CountBadStamp(const std::string& child, const Edge& edge, std::int64_t stamp,
+void LinkMotion::CountBadStamp(const std::string& child, Edge* edge, std::int64_t stamp,
                                double late) {
+  ++edge->bad_stamps;
   Warnings::Event event = Event("'" + child + "'",
-                                "frame '" + child + "' by " + ToString(edge.source) + ", too " +
+                                "frame '" + child + "' by " + ToString(edge->source) + ", too " +
                                     (late > 0 ? "late" : "early"),
                                 "it is left out: stamp samples when they are measured", stamp);
   event.size = std::abs(late) * 1e-9;
@@ -202,8 +216,19 @@ void LinkMotion::JudgeSaid(Edge* edge, const std::string& child, const Sample& s
 void LinkMotion::Take(Edge* edge, const std::string& child, const Sample& sample) {
   const std::int64_t stamp = sample.stamp;
   JudgeSaid(edge, child, sample);
-  if (judge_ && sample.recorded > 0) edge->delays.Add(stamp, sample.recorded);
-  if (edge->samples == 0) {
+  if (sample.recorded > 0) {
+    const std::int64_t delay = sample.recorded - stamp;
+    if (edge->delays.count() == 0 || delay < edge->least_delay) edge->least_delay = delay;
+    edge->delays.Add(stamp, sample.recorded);
+  }
+  const std::int64_t since_first = stamp - edge->first;
+  if (edge->samples == 1 && since_first > kFirstOff && edge->last_recorded > 0 &&
+      sample.recorded - edge->last_recorded < since_first / 2) {
+    CountBadStamp(child, edge, edge->first, static_cast<double>(-since_first));
+    edge->first = stamp;
+    edge->usual_interval = 0;
+    --edge->samples;
+  } else if (edge->samples == 0) {
     edge->first = stamp;
   } else {
     const std::int64_t interval = stamp - edge->last;
@@ -383,7 +408,7 @@ void LinkMotion::Finish() {
     edge.held.reset();
     const auto interval = static_cast<double>(held.stamp - edge.last);
     if (interval > std::max(kLongAtTheEnd * edge.usual_interval, kLongestAtTheEnd)) {
-      CountBadStamp(child, edge, held.stamp, interval - edge.usual_interval);
+      CountBadStamp(child, &edge, held.stamp, interval - edge.usual_interval);
     } else {
       Take(&edge, child, held);
     }

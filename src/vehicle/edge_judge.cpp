@@ -218,8 +218,11 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
       period_sum += h;
       ++periods;
     }
-    translation.AddRaw(d, h, sample.stamp);
-    rotation.AddRaw(turn, h, sample.stamp);
+    // Before the rate is known, intervals may be of two samples nearly at one time.
+    if (periods >= kIntervalsToKnowTheRate) {
+      translation.AddRaw(d, h, sample.stamp);
+      rotation.AddRaw(turn, h, sample.stamp);
+    }
     Keep(sample);
   }
   singles.Add(sample.stamp, sample.X);

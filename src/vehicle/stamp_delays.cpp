@@ -7,6 +7,12 @@ namespace {
 
 constexpr std::size_t kMost = 1024;
 
+std::int64_t MedianOf(std::vector<std::int64_t> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
 }  // namespace
 
 void StampDelays::Add(std::int64_t stamp, std::int64_t recorded) {
@@ -19,11 +25,15 @@ void StampDelays::Add(std::int64_t stamp, std::int64_t recorded) {
 }
 
 std::int64_t StampDelays::Median() const {
-  if (delays_.empty()) return 0;
-  std::vector<std::int64_t> sorted = delays_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
-  return *middle;
+  return delays_.empty() ? 0 : MedianOf({delays_.begin(), delays_.end()});
+}
+
+std::int64_t StampDelays::Change() const {
+  constexpr std::ptrdiff_t kFewest = 5;
+  const std::ptrdiff_t part = static_cast<std::ptrdiff_t>(delays_.size()) / 8;
+  if (part < kFewest) return 0;
+  return MedianOf({delays_.end() - part, delays_.end()}) -
+         MedianOf({delays_.begin(), delays_.begin() + part});
 }
 
 }  // namespace cosserat_cable

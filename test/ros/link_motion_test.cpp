@@ -465,6 +465,51 @@ TEST_F(LinkMotionTest, MessagesThatOvertakeEachOtherKeepTheirStamps) {
   EXPECT_TRUE(links.warnings().counts().empty());
 }
 
+TEST_F(LinkMotionTest, MessagesThatOvertakeEachOtherByFarAreRecordedLate) {
+  LinkMotion links(vehicle_, needed_, options_);
+  std::vector<std::pair<std::int64_t, int>> order;  // of recording
+  for (int i = 0; i < 400; ++i) order.emplace_back(kStart + i * kPeriod + (i * 7 % 5) * kPeriod, i);
+  std::sort(order.begin(), order.end());
+  for (const auto& [recorded, i] : order)
+    links.Ingest(Transform("odom", "base", kStart + i * kPeriod, BodyPose(0.01 * i)), false, "",
+                 recorded);
+  links.Finish();
+  EXPECT_EQ(links.warnings().counts().count("sample with a bad stamp"), 0u);
+}
+
+TEST_F(LinkMotionTest, AFirstStampThatIsWrongIsLeftOut) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 100; ++i) {
+    const std::int64_t now = kStart + i * kPeriod;
+    const std::int64_t stamp = i == 0 ? 5'000'000'000 : now;
+    links.Ingest(Transform("odom", "base", stamp, BodyPose(0.01 * i)), false, "", now);
+    links.Ingest(Joints(now, Travel(0.01 * i)), "", now);
+  }
+  links.Finish();
+  EXPECT_EQ(links.Start(), kStart);
+  EXPECT_EQ(links.edges().at("base").first, kStart + kPeriod);
+  EXPECT_EQ(links.warnings().counts().at("sample with a bad stamp"), 1u);
+  EXPECT_TRUE(links.MotionFindings("odom").empty());
+  bool nothing = false;
+  EXPECT_TRUE(links.CoverageFindings("odom", &nothing).empty());
+}
+
+TEST_F(LinkMotionTest, AClockThatGoesAtAnotherRateIsTold) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t now = kStart + i * kPeriod;
+    links.Ingest(Transform("odom", "base", now, BodyPose(0.01 * i)), false, "", now);
+    links.Ingest(Joints(now + i * kPeriod / 50, Travel(0.01 * i)), "", now);
+  }
+  links.Finish();
+  const Findings findings = links.MotionFindings("odom");
+  const Finding* drifts = FindKind(findings, "clock_drifts");
+  ASSERT_NE(drifts, nullptr);
+  EXPECT_EQ(drifts->subject, "/joint_states");
+  // 2 % of the 10 s, between the middles of the first and the last eighth.
+  EXPECT_NEAR(drifts->size, -0.02 * 10 * 7 / 8, 0.01);
+}
+
 TEST_F(LinkMotionTest, AnEdgeThatWasSentOnceLimitsTheRun) {
   LinkMotion links(vehicle_, needed_, options_);
   links.Ingest(Transform("map", "odom", kStart, Shifted(3)), false);

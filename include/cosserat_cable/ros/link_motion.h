@@ -73,6 +73,8 @@ class LinkMotion {
     double usual_interval = 0;   ///< [ns]
     std::optional<Sample> held;  ///< after a long interval, until the next one confirms its stamp
     StampDelays delays;
+    std::int64_t least_delay = 0;  ///< of recording after the stamp [ns], where it is known
+    std::uint64_t bad_stamps = 0;  ///< samples that were left out for it
     GapRule gap_rule;
     RecordingJudge::Edge* judged = nullptr;
     EdgeSmoother* smoother = nullptr;
@@ -173,7 +175,7 @@ class LinkMotion {
   /// Whether a sample that is far behind its edge confirms that time ran backwards.
   bool RunsBackwards(const std::string& child, const Edge& edge, const Sample& sample);
   void ForgetEarly(const std::string& child);
-  void CountBadStamp(const std::string& child, const Edge& edge, std::int64_t stamp, double late);
+  void CountBadStamp(const std::string& child, Edge* edge, std::int64_t stamp, double late);
   void CountContradiction(const Edge& edge, const std::string& child, const Pose& X_PC,
                           Source source);
   void Take(Edge* edge, const std::string& child, const Sample& sample);
@@ -190,6 +192,7 @@ class LinkMotion {
   /// Of recording after the stamp [ns], over all samples or of the edges' first ones.
   std::int64_t UsualDelay(bool at_first) const;
   void AddGapFindings(const std::set<std::string>& above, Findings* findings) const;
+  void AddDriftFindings(const std::set<std::string>& above, Findings* findings) const;
   void AddClockFindings(const std::set<std::string>& above, Findings* findings) const;
   void Deliver(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC);
   void JudgeRejected(const std::string& parent, const std::string& child, std::int64_t stamp,

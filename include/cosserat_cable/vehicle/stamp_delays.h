@@ -15,6 +15,8 @@ class StampDelays {
   std::uint64_t count() const { return count_; }
   std::int64_t first() const { return delays_.empty() ? 0 : delays_.front(); }  ///< [ns]
   std::int64_t Median() const;  ///< [ns]; 0 where there are none
+  /// From the first eighth of the samples to the last one [ns]; 0 where there are few.
+  std::int64_t Change() const;
 
  private:
   std::vector<std::int64_t> delays_;
