@@ -144,6 +144,8 @@ void LinkMotion::AddClockFindings(const std::set<std::string>& above, Findings* 
   for (const auto& [child, edge] : edges_) {
     if (!edge.is_followed || above.count(child) > 0 || edge.delays.count() < kFewestDelays)
       continue;
+    // Constant transforms are stamped ahead by their senders, and do no harm.
+    if (!edge.moves) continue;
     ++judged[edge.source];
     const double delay = ToSeconds(edge.delays.Median() - usual);
     const bool is_above = !vehicle_.HasLink(child);
@@ -262,20 +264,25 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
   const std::set<std::string> above = Above(world);
   std::map<std::pair<Source, std::pair<std::int64_t, std::int64_t>>, std::vector<std::string>>
       alike;
-  std::int64_t first = std::numeric_limits<std::int64_t>::max(), last = 0;
-  std::int64_t begin = 0, end = first;
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  std::int64_t first = kNever, last = 0, begin = 0, end = kNever;
   for (const auto& [child, edge] : edges_) {
     if (!edge.is_followed || above.count(child) > 0 || edge.samples == 0) continue;
     alike[{edge.source, {edge.first, edge.last}}].push_back(child);
-    first = std::min(first, edge.first);
-    last = std::max(last, edge.last);
     begin = std::max(begin, edge.first);
     end = std::min(end, edge.last);
+    // Senders of constant transforms stamp them ahead: how long the recording is, others say.
+    if (!edge.moves) continue;
+    first = std::min(first, edge.first);
+    last = std::max(last, edge.last);
   }
   // After a loop only its last part is known here.
   if (alike.empty() || clear_count_ > 0) return {};
-  // Not only what links depend on says how long the recording is.
-  const double whole = ToSeconds(std::max(last, last_stamp_) - first);
+  if (last == 0) {
+    first = std::min(first_stamp_, begin);
+    last = std::max(last_stamp_, end);
+  }
+  const double whole = ToSeconds(last - first);
   const double kept = ToSeconds(end - begin);
   *nothing = kept <= 0 && whole > kInstant;
   if (whole <= kInstant) {
@@ -319,7 +326,7 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
     const auto shifted = std::find_if(alike.begin(), alike.end(), [&](const auto& other) {
       const auto& [other_first, other_last] = other.first.second;
       const double at_begin = ToSeconds(other_first - edge.first);
-      return is_lost(std::abs(at_begin)) &&
+      return edge.moves && edges_.at(other.second[0]).moves && is_lost(std::abs(at_begin)) &&
              std::abs(at_begin - ToSeconds(other_last - edge.last)) < kSameShift;
     });
     if (shifted != alike.end()) {
@@ -333,14 +340,19 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
       if (shift > 0) findings.push_back(std::move(finding));
       continue;
     }
-    const JointModel* joint = JointAbove(children[0]);
-    finding.remedy = edge.moves
-                         ? "record it to the end"
+    // One that follows another joint is held with that.
+    const JointModel* joint = nullptr;
+    for (const std::string& child : children)
+      if (joint == nullptr || !joint->mimic.empty()) joint = JointAbove(child);
+    const bool by_joint = edge.source == Source::kJointStates;
+    finding.remedy = edge.moves ? "record it to the end"
+                     : by_joint
+                         ? "publish the joint in each message, also where it stands still"
                          : "if it never changes, publish it on " + ToString(Source::kTfStatic) +
                                "; if it moves, record all of it";
     if (joint != nullptr && joint->type != JointModel::Type::kFixed) {
       finding.remedy +=
-          ", or keep its joint at rest by " +
+          ", or keep it at rest by " +
           (options_.is_node ? "~hold_joints: [" + joint->name + "]" : "--hold " + joint->name);
     } else if (!vehicle_.HasLink(children[0]) || children[0] == vehicle_.root) {
       finding.remedy +=

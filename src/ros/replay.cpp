@@ -137,6 +137,11 @@ ExitCode RunReplay(ReplayOptions options) {
               << inputs.survey->topmost << "' above it: a localisation's corrections move it\n";
   }
 
+  // Before anybody waits for it.
+  for (const Finding& finding : inputs.survey->findings)
+    if (finding.kind == "limits_the_run" || finding.kind == "one_instant")
+      std::cerr << "warning: " << finding.ToString() << "\n";
+
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   ExitCode code = kExitDone;
   try {

@@ -542,6 +542,25 @@ TEST_F(LinkMotionTest, WhatComesBeforeTheFramesBelowItCountsToo) {
   EXPECT_EQ(ready, kStart + 49 * kPeriod);
 }
 
+// As the old static_transform_publisher does.
+TEST_F(LinkMotionTest, AConstantTransformThatIsStampedAheadIsNoOtherClock) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 10; ++i) {
+    const std::int64_t now = kStart + i * 100 * kPeriod;
+    links.Ingest(Transform("world", "odom", now + 100 * kPeriod, Shifted(3)), false);
+    Drive(&links, now, 100);
+  }
+  links.Finish();
+  bool nothing = false;
+  const Findings findings = links.CoverageFindings("world", &nothing);
+  EXPECT_FALSE(nothing);
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].subject, "world -> odom");
+  EXPECT_NE(findings[0].what.find("the run has 8.990 s of 9.990 s"), std::string::npos)
+      << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("/tf_static"), std::string::npos);
+}
+
 TEST_F(LinkMotionTest, AnEdgeThatEndsEarlyLimitsTheRun) {
   LinkMotion links(vehicle_, needed_, options_);
   for (int i = 0; i < 4; ++i) {
