@@ -147,16 +147,16 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
   }
   Edge* edge = &found->second;
   if (edge->parent != parent) {
-    const bool moves_a_link = edge->source == Source::kUrdf && !vehicle_.HasLink(parent);
-    warnings_.Count(
-        "frame '" + child + "' has two parents",
-        Event("",
-              "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" + parent +
-                  "' by " + ToString(source) + " is ignored",
-              moves_a_link
-                  ? "what moves the vehicle has to move its root: record '" + parent + " -> " +
-                        vehicle_.root + "', or make '" + child + "' the URDF's root"
-                  : "stop one of the two publishers, or take its transforms out of the recording"));
+    std::string remedy =
+        "a frame has one parent: stop one of the two publishers, or take its transforms out of the "
+        "recording";
+    if (edge->source == Source::kUrdf && !vehicle_.HasLink(parent))
+      remedy += "; what moves the vehicle has to move its root '" + vehicle_.root + "'";
+    warnings_.Count("frame '" + child + "' has two parents",
+                    Event("",
+                          "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" +
+                              parent + "' by " + ToString(source) + " is ignored",
+                          remedy));
     return nullptr;
   }
   if (edge->source == source) return edge;
@@ -214,7 +214,7 @@ void LinkMotion::AddFixed(const std::string& parent, const std::string& child, c
   tree_.SetFixed(parent, child, X_PC);
   edge->last_pose = X_PC;
   if (judge_ && source == Source::kTfStatic && edge->is_followed)
-    judge_->AddFixed(parent, child, X_PC, ToString(source));
+    judge_->AddFixed(parent, child, X_PC, ToString(source), recorded_);
 }
 
 RecordingJudge::Way LinkMotion::WayAboveVehicle() const {

@@ -25,6 +25,8 @@ constexpr double kFarBeyond = 3;
 constexpr double kTooClose = 0.25;
 // An outlier or a bad stamp makes up to so many large accelerations and jumps.
 constexpr std::uint64_t kEventsOfOne = 4;
+// Of an encoder's step.
+constexpr double kFlip = 1.5;
 // Rounding of poses that do not move [m], [rad].
 constexpr double kStill = 1e-6;
 // What smoothing may leave of the noise [m/s^2], [rad/s^2]: little beside gravity.
@@ -147,6 +149,14 @@ struct EdgeJudge::Impl {
   bool IsSingle(const MotionChannel& channel, std::uint64_t events) const;
   const OutlierJudge::Found& Singles(const MotionChannel& channel) const {
     return &channel == &translation ? singles.translation() : singles.rotation();
+  }
+  /// A joint's steps of one size are those of its encoder; so are outliers that are no larger.
+  bool IsEncoder(const MotionChannel& channel) const {
+    return role == EdgeRole::kJoint && Singles(channel).HasQuantum();
+  }
+  bool IsEncoderFlips(const MotionChannel& channel) const {
+    return IsEncoder(channel) &&
+           Singles(channel).outliers.size < kFlip * Singles(channel).steps.size;
   }
   Finding Start(const char* kind, const MotionChannel::Tally& tally) const;
   Finding Start(const char* kind, const OutlierJudge::Tally& tally) const;
@@ -302,7 +312,7 @@ void EdgeJudge::Impl::ReportJumps(Findings* findings) const {
     return;
   }
   // Smaller ones that stand out all the same.
-  channel = Worse([this](const auto& c) { return Singles(c).steps.count > 0; },
+  channel = Worse([this](const auto& c) { return Singles(c).steps.count > 0 && !IsEncoder(c); },
                   [this](const auto& c) { return Singles(c).steps.size / c.limits().jump; });
   if (!channel) return;
   const OutlierJudge::Tally& steps = Singles(*channel).steps;
@@ -330,7 +340,7 @@ void EdgeJudge::Impl::ReportJump(const MotionChannel* channel, Finding finding, 
 
 void EdgeJudge::Impl::ReportOutliers(Findings* findings) const {
   const MotionChannel* channel =
-      Worse([this](const auto& c) { return Singles(c).outliers.count > 0; },
+      Worse([this](const auto& c) { return Singles(c).outliers.count > 0 && !IsEncoderFlips(c); },
             [this](const auto& c) { return Singles(c).outliers.size / c.limits().jump; });
   if (!channel) return;
   const OutlierJudge::Tally& outliers = Singles(*channel).outliers;

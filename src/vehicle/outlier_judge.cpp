@@ -26,6 +26,9 @@ constexpr double kOnPath = 0.25;
 constexpr double kHole = 2.75;
 // Rotations between samples that are nearly half a turn apart say nothing.
 constexpr double kLargestTurn = 2.5;  // [rad]
+// An encoder's steps: so many, and the largest no more than this times the mean.
+constexpr std::uint64_t kStepsOfEncoder = 8;
+constexpr double kOneSize = 1.3;
 // Rounding of poses [m], [rad].
 constexpr double kRounding = 1e-7;
 
@@ -50,6 +53,11 @@ Extrapolated Parabola(const Eigen::Vector3d* p, const double* t, double at) {
 OutlierJudge::OutlierJudge(const OutlierLimits& translation, const OutlierLimits& rotation,
                            double max_gap)
     : limits_{translation, rotation}, max_gap_(max_gap) {}
+
+bool OutlierJudge::Found::HasQuantum() const {
+  return steps.count >= kStepsOfEncoder &&
+         steps.size < kOneSize * steps.sum / static_cast<double>(steps.count);
+}
 
 void OutlierJudge::Restart() {
   JudgeRest();
@@ -269,6 +277,7 @@ void OutlierJudge::Note(const Event& event, int at, int channel) {
                                                      : found.stamps;
   const std::int64_t stamp = samples_[at].stamp;
   if (tally.count++ == 0) tally.first = stamp;
+  tally.sum += event.size;
   if (event.size <= tally.size) return;
   tally.worst = stamp;
   tally.size = event.size;

@@ -31,12 +31,16 @@ class OutlierJudge {
     double acceleration = 0;            ///< of the same [/s^2]
     double lateness = 0;                ///< of the same's stamp [s]
     double usual = 0;                   ///< what samples around it are off
+    double sum = 0;                     ///< of all sizes
   };
   /// Of translations, or of rotations.
   struct Found {
     Tally outliers;  ///< excursions of one to three samples
     Tally steps;
     Tally stamps;  ///< samples that lie on the path of the others, at another time
+
+    /// Whether the steps are many and of one size, as a coarse encoder's are.
+    bool HasQuantum() const;
   };
 
   OutlierJudge(const OutlierLimits& translation, const OutlierLimits& rotation, double max_gap);

@@ -76,7 +76,7 @@ void RecordingJudge::AddMotion(Edge* edge, std::int64_t stamp, const Pose& X_PC)
 }
 
 void RecordingJudge::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
-                              const std::string& topic) {
+                              const std::string& topic, std::int64_t recorded) {
   Edge* edge = At(parent, child);
   const JointModel* drawn = JointAbove(vehicle_, child);
   const bool by_urdf = !edge->fixed && drawn && drawn->type == JointModel::Type::kFixed;
@@ -95,6 +95,7 @@ void RecordingJudge::AddFixed(const std::string& parent, const std::string& chil
   finding.remedy = by_urdf ? "is this the URDF of the vehicle that was recorded?"
                            : "do two publishers disagree?";
   finding.count = 1;
+  finding.first = finding.worst = recorded;
   finding.size = translation;
   finding.limit = kSameTranslation;
   finding.unit = "m";

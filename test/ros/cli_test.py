@@ -298,7 +298,7 @@ cables:
                     "sample with a bad stamp: 1 (first: frame 'base_link' by /tf, too late), at "
                     "109.000 s (9.000 s after the start), by up to 6.5 s: it is left out",
                     "frame 'base_link' has two parents: 1 (first: 'odom' by /tf is kept, 'map' by "
-                    "/tf is ignored), at 103.000 s (3.000 s after the start): stop one"):
+                    "/tf is ignored), at 103.000 s (3.000 s after the start): a frame has one parent"):
                 self.assertIn(words, text, tool)
 
     def test_recordings_in_a_loop_are_told(self):

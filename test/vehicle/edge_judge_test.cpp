@@ -218,6 +218,21 @@ TEST(EdgeJudge, BlowsAndStartsAreNoSpikes) {
   }
 }
 
+TEST(EdgeJudge, StepsOfACoarseEncoderAreNoJumpsAndNoOutliers) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> noise(0, 2e-4);
+  for (const double step : {0.001, 0.002}) {
+    const auto coarse = [&](double t) {
+      const double x = 0.03 * std::sin(2 * M_PI * 0.1 * t) + noise(random);
+      return At(step * std::round(x / step), 3 * step * std::round(x / step));
+    };
+    for (const double rate : {50.0, 100.0, 500.0}) {
+      const std::string kinds = Kinds(Found(EdgeRole::kJoint, {rate, 30, coarse}));
+      EXPECT_TRUE(kinds.empty() || kinds == "noise") << kinds << " " << step << " " << rate;
+    }
+  }
+}
+
 TEST(EdgeJudge, HolesAreNoBadStamps) {
   EdgeJudge judge(EdgeRole::kJoint, kMaxGap);
   for (int i = 0; i < 1000; ++i)
