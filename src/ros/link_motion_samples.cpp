@@ -97,22 +97,22 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
     epoch_ = stamp;
   }
   ResolveHeld(edge, child, sample);
-  const bool in_order = edge->samples == 0 || stamp > edge->last;
-  if (!in_order) {
+  const bool repeats =
+      edge->samples > 0 && (stamp == edge->last || (edge->held && stamp == edge->held->stamp));
+  if (repeats || (edge->samples > 0 && stamp < edge->last)) {
     JudgeSaid(edge, child, sample);
     Warnings::Event event =
         Event("'" + child + "'", "frame '" + child + "' by " + ToString(source),
-              stamp == edge->last
-                  ? "it is left out: do two publishers send it, or is a message recorded twice?"
-                  : "it is left out: are stamps late or early, or do two publishers send it?",
+              repeats ? "it is left out: do two publishers send it, or is a message recorded twice?"
+                      : "it is left out: are stamps late or early, or do two publishers send it?",
               stamp);
-    if (stamp != edge->last) {
+    if (!repeats) {
       event.size = static_cast<double>(edge->last - stamp) * 1e-9;
       event.unit = "s";
     }
-    warnings_.Count(stamp == edge->last ? "sample repeated with the same stamp"
-                                        : "sample older than the one before it",
-                    event);
+    warnings_.Count(
+        repeats ? "sample repeated with the same stamp" : "sample older than the one before it",
+        event);
     return;
   }
   if (!early_.empty()) ForgetEarly(child);
@@ -228,6 +228,8 @@ void LinkMotion::Take(Edge* edge, const std::string& child, const Sample& sample
     edge->first = stamp;
     edge->usual_interval = 0;
     --edge->samples;
+    tree_.Restart(edge->samples_of);
+    if (edge->smoother) edge->smoother->Clear();
   } else if (edge->samples == 0) {
     edge->first = stamp;
   } else {

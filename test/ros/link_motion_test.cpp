@@ -477,6 +477,19 @@ TEST_F(LinkMotionTest, MessagesThatOvertakeEachOtherByFarAreRecordedLate) {
   EXPECT_EQ(links.warnings().counts().count("sample with a bad stamp"), 0u);
 }
 
+TEST_F(LinkMotionTest, SamplesRepeatedBehindAGapAreCountedAsSuch) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 100; ++i) {
+    if (i == 50) continue;
+    for (int n = 0; n < 2; ++n)
+      links.Ingest(Transform("odom", "base", kStart + i * kPeriod, BodyPose(0.01 * i)), false);
+  }
+  links.Finish();
+  EXPECT_EQ(links.edges().at("base").samples, 99u);
+  ASSERT_EQ(links.warnings().counts().size(), 1u);
+  EXPECT_EQ(links.warnings().counts().at("sample repeated with the same stamp"), 99u);
+}
+
 TEST_F(LinkMotionTest, AFirstStampThatIsWrongIsLeftOut) {
   LinkMotion links(vehicle_, needed_, options_);
   for (int i = 0; i < 100; ++i) {
@@ -488,6 +501,9 @@ TEST_F(LinkMotionTest, AFirstStampThatIsWrongIsLeftOut) {
   links.Finish();
   EXPECT_EQ(links.Start(), kStart);
   EXPECT_EQ(links.edges().at("base").first, kStart + kPeriod);
+  std::int64_t begin = 0, ready = 0;
+  ASSERT_TRUE(links.Range(&begin, &ready));
+  EXPECT_EQ(begin, kStart + kPeriod);
   EXPECT_EQ(links.warnings().counts().at("sample with a bad stamp"), 1u);
   EXPECT_TRUE(links.MotionFindings("odom").empty());
   bool nothing = false;
