@@ -225,11 +225,14 @@ RecordingJudge::Way LinkMotion::WayAboveVehicle() const {
 
 Findings LinkMotion::MotionFindings(const std::string& world) const {
   if (!judge_) return {};
-  Findings findings = judge_->Report(WayAboveVehicle(), world);
+  // Clocks and gaps first: they may be why motion looks as it does.
+  Findings findings;
   const std::set<std::string> above = Above(world);
   AddClockFindings(above, &findings);
   AddDriftFindings(above, &findings);
   AddGapFindings(above, &findings);
+  for (Finding& finding : judge_->Report(WayAboveVehicle(), world))
+    findings.push_back(std::move(finding));
   return findings;
 }
 
