@@ -196,6 +196,16 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
                                "--world-frame " +
                                    smooth + " (~world_frame of the node)";
     }
+    // A vehicle that stands still in a frame that is corrected.
+    if (!is_corrected && motion.empty() && edge.correction && edge.correction->MovesByJumps()) {
+      motion = edge.correction->Report(subject, edge.topic);
+      if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
+      for (Finding& finding : motion)
+        finding.remedy =
+            "does a localisation correct it? then take the frame below as inertial, "
+            "--world-frame " +
+            child + " (~world_frame of the node)";
+    }
     std::move(motion.begin(), motion.end(), std::back_inserter(findings));
     if (edge.joint) {
       Findings joint = edge.joint->Report(edge.topic);
