@@ -45,8 +45,8 @@ int main(int argc, char** argv) {
       return cosserat_cable::kExitFileTrouble;
     }
   }
-  const std::size_t findings =
-      inputs.survey ? inputs.survey->findings.size() + inputs.survey->warnings.size() : 0;
+  const std::size_t findings = cosserat_cable::InputWarnings(inputs).size() +
+                               (inputs.survey ? inputs.survey->findings.size() : 0);
   std::cout << cosserat_cable::Describe(inputs, engine) << "ok";
   if (findings > 0)
     std::cout << ", but for " << findings << (findings == 1 ? " warning" : " warnings");

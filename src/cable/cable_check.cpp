@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "cosserat_cable/cable/extension_law.h"
 #include "cosserat_cable/input/number_text.h"
 
 namespace cosserat_cable {
@@ -71,6 +72,27 @@ void CheckClampDistance(const CableModel& cable, const CableMarks& marks, double
   problems->Add(marks.cable, "got clamps " + FormatRounded(distance) +
                                  " m apart, expected at most the cable's length, " +
                                  FormatRounded(cable.length) + " m");
+}
+
+std::string ClampsInside(const CableModel& cable, const Pose& X_WA, const Pose& X_WB) {
+  for (const CableExtension& extension : cable.extensions) {
+    const ExtensionLaw& law = LawOf(extension);
+    if (law.depth == nullptr) continue;
+    const Pose X_AB = X_WA.Inverse() * X_WB;
+    const double at_a = law.depth(extension, cable, Eigen::Vector3d::Zero());
+    const double at_b = law.depth(extension, cable, X_AB.p);
+    // A clamp may sit on a surface.
+    if (std::max(at_a, at_b) <= cable.diameter) continue;
+    const auto side = [](const char* name, double depth) {
+      return std::string("clamp ") + name + " is " + FormatRounded(1e3 * std::abs(depth), 3) +
+             (depth > 0 ? " mm inside" : " mm outside");
+    };
+    return "the obstacle of extensions." + extension.name + " holds the cable: " + side("a", at_a) +
+           ", " + side("b", at_b) +
+           " by its surface; move the obstacle, or turn it round (its solid side is the one "
+           "against the normal)";
+  }
+  return "";
 }
 
 }  // namespace cosserat_cable

@@ -2,9 +2,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <stdexcept>
 #include <utility>
 
 #include "cable_simulation_impl.h"
+#include "cosserat_cable/cable/cable_check.h"
+#include "cosserat_cable/cable/extension_law.h"
 #include "cosserat_cable/math/rotation.h"
 #include "cosserat_cable/rod/initial_shape.h"
 
@@ -30,11 +33,24 @@ constexpr double kFollows = 10;
 // of a vehicle, long enough that accelerations are above the rounding of equilibria.
 constexpr double kMoment = 1e-3;  // [s]
 
+// A motion that grows more slowly is not seen in minutes, and hardly told from rounding [1/s].
+constexpr double kGrowsSlowly = 0.05;
+// How far it is pushed along what grows, of the length; and how often, as one fall may end on
+// another saddle.
+constexpr double kPush = 0.02;
+constexpr int kMostFalls = 4;
+
 /// Where a frame is after `time` [s], its accelerations unchanged.
 Pose After(const Motion& m, double time) {
   const double half = 0.5 * time * time;
   const Eigen::Vector3d turn = time * m.omega + half * m.alpha;
   return {m.X.p + time * m.v + half * m.a, (m.X.q * RotationExp(turn)).normalized()};
+}
+
+bool HasObstacle(const CableModel& cable) {
+  return std::any_of(
+      cable.extensions.begin(), cable.extensions.end(),
+      [](const CableExtension& extension) { return LawOf(extension).depth != nullptr; });
 }
 
 bool Rests(const Motion& m) {
@@ -49,7 +65,7 @@ bool Rests(const Surroundings& s) {
 
 }  // namespace
 
-StepOutcome CableSimulation::Settle(const Surroundings& now) {
+StepOutcome CableSimulation::Settle(const Surroundings& now, Unstable unstable) {
   Impl& m = *impl_;
   StepOutcome outcome;
   outcome.ok = false;
@@ -65,9 +81,12 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
   rod::SolveReport report = m.rod.Equilibrate(now.load);
   outcome.iterations = report.iterations;
   if (!report.converged) {
+    const std::string inside = ClampsInside(m.model, now.a.X, now.b.X);
     outcome.message =
-        "no equilibrium found in " + std::to_string(report.iterations) +
-        " iterations (clamps too far apart, or a section parameter out of proportion?)";
+        "no equilibrium found in " + std::to_string(report.iterations) + " iterations (" +
+        (inside.empty() ? "clamps too far apart, or a section parameter out of proportion?"
+                        : inside) +
+        ")";
     return outcome;
   }
   m.TakePositions();
@@ -84,10 +103,83 @@ StepOutcome CableSimulation::Settle(const Surroundings& now) {
     outcome.message = text;
     return outcome;
   }
+  if (unstable == Unstable::kFalls) {
+    outcome.remark = ClampsInside(m.model, now.a.X, now.b.X);
+    m.LeaveUnstable(&outcome);
+  }
   if (!Rests(now)) m.SetOut(now, &outcome);
   m.Begin(now);
   outcome.ok = true;
   return outcome;
+}
+
+double CableSimulation::Impl::Grows(rod::Mode* mode) {
+  try {
+    std::vector<rod::Mode> modes = rod::FindModes(rod, 1, LoadIn(now));
+    if (modes.empty() || modes[0].lambda.real() < kGrowsSlowly) return 0;
+    *mode = std::move(modes[0]);
+    return mode->lambda.real();
+  } catch (const std::runtime_error&) {
+    return 0;
+  }
+}
+
+// By symmetry an arch may stand upright that would fall over, and a straight cable bear more than
+// it can. Which way it falls is chance: here it is the positive side of the motion that grows. What
+// lies on something is left there: friction would hold it, which contact here has not.
+void CableSimulation::Impl::LeaveUnstable(StepOutcome* outcome) {
+  const std::vector<ContactPoint> contacts = contact.Points(rod);
+  if (std::any_of(contacts.begin(), contacts.end(),
+                  [](const ContactPoint& point) { return point.penetration > 0; }) ||
+      HasObstacle(model))
+    return;
+  std::vector<Pose> first(model.elements + 1);
+  TakeShape(&first);
+  const auto take = [&](const std::vector<Pose>& shape) {
+    rod.SetConfiguration(shape);
+    rod.SetClamps(now.a.X, now.b.X);
+    return SettleOnBodies(outcome) && Depth() <= kDeepest * model.diameter;
+  };
+  double grows = 0;
+  for (int fall = 0; fall < kMostFalls; ++fall) {
+    rod::Mode mode;
+    const double rate = Grows(&mode);
+    if (fall == 0) grows = rate;
+    if (rate == 0) break;
+    std::vector<Pose> shape(first.size());
+    TakeShape(&shape);
+    for (std::size_t i = 1; i + 1 < shape.size(); ++i) {
+      const double push = kPush * model.length;
+      shape[i].p += push * mode.displacement[i];
+      shape[i].q = RotationExp(push * mode.rotation[i]) * shape[i].q;
+    }
+    if (!take(shape)) {
+      take(first);
+      break;
+    }
+  }
+  if (grows == 0) return;
+  rod::Mode mode;
+  const double left = Grows(&mode);
+  char text[300];
+  if (left > 0) {
+    std::snprintf(
+        text, sizeof text,
+        "it rests in an unstable equilibrium: the slightest motion makes it fall (it grows "
+        "by a factor e in %.2g s), and what is simulated then is chance; do clamps or "
+        "length have to be otherwise?",
+        1 / left);
+  } else {
+    double farthest = 0;
+    for (int i = 0; i <= model.elements; ++i)
+      farthest = std::max(farthest, (rod.pose(i).p - first[static_cast<std::size_t>(i)].p).norm());
+    std::snprintf(
+        text, sizeof text,
+        "it would balance in an unstable equilibrium, by symmetry; it rests beside it, up to "
+        "%.3g mm away, where it falls to: the other side would do as well",
+        1e3 * farthest);
+  }
+  outcome->remark = text;
 }
 
 void CableSimulation::Impl::Begin(const Surroundings& start) {

@@ -41,6 +41,11 @@ struct CableSimulation::Impl {
   bool SettleOnBodies(StepOutcome* outcome);
   /// Puts the cable on what it would hang through, growing from a short one to its length.
   void PayOut(StepOutcome* outcome);
+  /// Out of an equilibrium that is unstable into one that is not.
+  void LeaveUnstable(StepOutcome* outcome);
+  /// How fast the fastest motion grows that the equilibrium lets grow [1/s], and its shape; 0 where
+  /// none does, or it cannot be said.
+  double Grows(rod::Mode* mode);
   /// The cable is as it is in these surroundings: the state that the next step starts from.
   void Begin(const Surroundings& start);
   /// Sets the cable, at rest, moving with its surroundings.

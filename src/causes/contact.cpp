@@ -127,21 +127,36 @@ class ObstacleContact final : public rod::Load {
   double length_, diameter_;  // [m]
 };
 
-std::shared_ptr<const rod::Load> MakeLoad(const CableExtension& extension,
-                                          const CableModel& cable) {
+Obstacle ObstacleOf(const CableExtension& extension) {
   const auto& numbers = extension.parts.front();
-  ContactLaw law = cable.contact;
-  if (const auto own = numbers.find("stiffness"); own != numbers.end()) law.stiffness = own->second;
-  if (law.stiffness == 0) return nullptr;
   if (numbers.count("plane.offset")) {
     const Vector3d normal = Direction(numbers.at("plane.azimuth"), numbers.at("plane.elevation"));
-    return std::make_shared<ObstacleContact>(
-        Obstacle{true, normal, numbers.at("plane.offset") * normal, 0}, law, cable);
+    return {true, normal, numbers.at("plane.offset") * normal, 0};
   }
   const Vector3d axis = Direction(numbers.at("peg.azimuth"), numbers.at("peg.elevation"));
   const Vector3d point(numbers.at("peg.x"), numbers.at("peg.y"), numbers.at("peg.z"));
-  return std::make_shared<ObstacleContact>(Obstacle{false, axis, point, numbers.at("peg.radius")},
-                                           law, cable);
+  return {false, axis, point, numbers.at("peg.radius")};
+}
+
+ContactLaw LawOfContact(const CableExtension& extension, const CableModel& cable) {
+  const auto& numbers = extension.parts.front();
+  ContactLaw law = cable.contact;
+  if (const auto own = numbers.find("stiffness"); own != numbers.end()) law.stiffness = own->second;
+  return law;
+}
+
+std::shared_ptr<const rod::Load> MakeLoad(const CableExtension& extension,
+                                          const CableModel& cable) {
+  const ContactLaw law = LawOfContact(extension, cable);
+  if (law.stiffness == 0) return nullptr;
+  return std::make_shared<ObstacleContact>(ObstacleOf(extension), law, cable);
+}
+
+double Depth(const CableExtension& extension, const CableModel& cable, const Vector3d& p_A) {
+  if (LawOfContact(extension, cable).stiffness == 0)
+    return -std::numeric_limits<double>::infinity();
+  const Obstacle obstacle = ObstacleOf(extension);
+  return 0.5 * cable.diameter - Placed(obstacle, Motion()).To(p_A).distance;
 }
 
 bool Gives(const ExtensionKey& key, const std::string& group) {
@@ -180,6 +195,7 @@ Cause ContactCause() {
                 {"stiffness", "N/m", NumberSpec::AtLeast(0, "N/m").AtMost(1e9), Need::kOptional}};
   law.check = Check;
   law.load = MakeLoad;
+  law.depth = Depth;
   cause.name = law.name;
   cause.words = "an obstacle that the model does not have";
   return cause;

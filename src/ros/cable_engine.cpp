@@ -160,12 +160,13 @@ std::size_t CableEngine::FrameIndex(const std::string& link) const {
 }
 
 void CableEngine::Ingest(const tf2_msgs::TFMessage& message, bool is_static,
-                         const std::string& publisher) {
-  links_.Ingest(message, is_static, publisher);
+                         const std::string& publisher, std::int64_t recorded) {
+  links_.Ingest(message, is_static, publisher, recorded);
 }
 
-void CableEngine::Ingest(const sensor_msgs::JointState& message, const std::string& publisher) {
-  links_.Ingest(message, publisher);
+void CableEngine::Ingest(const sensor_msgs::JointState& message, const std::string& publisher,
+                         std::int64_t recorded) {
+  links_.Ingest(message, publisher, recorded);
 }
 
 void CableEngine::Finish() {
@@ -398,6 +399,8 @@ Summary CableEngine::MakeSummary() const {
   summary.resets = resets_;
   summary.gaps = links_.gap_count();
   summary.warnings = links_.warnings().counts();
+  summary.warning_sentences =
+      links_.warnings().Sentences(options_.links.judge ? 0 : links_.Start());
   summary.findings = AllFindings();
   summary.smooth = options_.links.smooth;
   for (const auto& cable : cables_) summary.cables.push_back(cable->summary());

@@ -133,6 +133,8 @@ sensor_msgs::JointState Restamped(sensor_msgs::JointState message) {
   return message;
 }
 
+std::int64_t Arrival() { return ToNanoseconds(ros::Time::now()); }
+
 // What is published under other names than those to which the node listens.
 std::vector<std::string> UnreadTopics(const MotionTopics& topics) {
   ros::master::V_TopicInfo published;
@@ -163,6 +165,7 @@ ExitCode RunNode(const NodeOptions& options) {
     for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
     return kExitBadInput;
   }
+  for (const Problem& warning : inputs.vehicle.warnings.all()) ROS_WARN_STREAM(warning.ToString());
   for (const Problem& note : inputs.vehicle.notes.all()) ROS_WARN_STREAM(note.ToString());
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   std::vector<std::string> names;
@@ -176,7 +179,8 @@ ExitCode RunNode(const NodeOptions& options) {
   const ros::Subscriber tf = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
       topics.tf, kInputQueue, boost::function<void(const TfEvent&)>([&](const TfEvent& event) {
         const tf2_msgs::TFMessage& message = *event.getConstMessage();
-        engine.Ingest(by_arrival ? Restamped(message) : message, false, event.getPublisherName());
+        engine.Ingest(by_arrival ? Restamped(message) : message, false, event.getPublisherName(),
+                      Arrival());
       }),
       ros::VoidConstPtr(), hints);
   const ros::Subscriber tf_static = node.subscribe<tf2_msgs::TFMessage, const TfEvent&>(
@@ -191,7 +195,8 @@ ExitCode RunNode(const NodeOptions& options) {
         topics.joint_states, kInputQueue,
         boost::function<void(const JointEvent&)>([&](const JointEvent& event) {
           const sensor_msgs::JointState& message = *event.getConstMessage();
-          engine.Ingest(by_arrival ? Restamped(message) : message, event.getPublisherName());
+          engine.Ingest(by_arrival ? Restamped(message) : message, event.getPublisherName(),
+                        Arrival());
         }),
         ros::VoidConstPtr(), hints);
   }
@@ -216,6 +221,11 @@ ExitCode RunNode(const NodeOptions& options) {
       if (!reasons.empty()) {
         for (const auto& more : {engine.links().Advice(), UnreadTopics(topics)})
           reasons.insert(reasons.end(), more.begin(), more.end());
+      } else {
+        bool nothing = false;
+        const LinkMotion& links = engine.links();
+        for (const Finding& finding : links.CoverageFindings(links.world(), &nothing))
+          reasons.push_back(finding.ToString());
       }
       sink.ReportWaiting(engine.started(), reasons);
     }

@@ -81,8 +81,8 @@ class ClampSurvey {
 }  // namespace
 
 void Feed(const BagMessage& message, LinkMotion* links) {
-  if (message.tf) links->Ingest(*message.tf, message.is_static, message.publisher());
-  if (message.joints) links->Ingest(*message.joints, message.publisher());
+  if (message.tf) links->Ingest(*message.tf, message.is_static, message.publisher(), message.time);
+  if (message.joints) links->Ingest(*message.joints, message.publisher(), message.time);
 }
 
 std::vector<ClampJudge> FollowClamps(const BagReader& bags, std::int64_t from, std::int64_t to,

@@ -26,6 +26,7 @@ DiagnosticStatus CableDiagnostics(const CableSummary& cable, bool failed,
   status.hardware_id = "none";
   std::string warning = cable.DepthWarning();
   if (warning.empty()) warning = cable.long_elements;
+  if (warning.empty()) warning = cable.rest_remark;
   status.level = failed            ? DiagnosticStatus::ERROR
                  : warning.empty() ? DiagnosticStatus::OK
                                    : DiagnosticStatus::WARN;
@@ -71,7 +72,7 @@ DiagnosticStatus InputDiagnostics(const LinkMotion& links, std::uint64_t resets,
     AddValue("smoothed below [Hz]", smooth, &status);
     AddValue("latency of smoothing [s]", EdgeSmoother::Latency(smooth), &status);
   }
-  for (const auto& [kind, count] : counts) AddValue(kind, static_cast<double>(count), &status);
+  for (const auto& [kind, count] : counts) AddValue(kind, links.warnings().Sentence(kind), &status);
   for (const Finding& finding : findings)
     AddValue(finding.kind + ": " + finding.subject, finding.ToString(), &status);
   return status;

@@ -15,6 +15,7 @@
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/vehicle/joint_positions.h"
+#include "cosserat_cable/vehicle/upright_judge.h"
 #include "imu_gravity.h"
 
 namespace cosserat_cable {
@@ -43,6 +44,8 @@ void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs&
     const double chord = (X_WB.p - X_WA.p).norm();
     survey->chords.push_back(chord);
     CheckClampDistance(cable, marks, chord, problems);
+    const std::string inside = ClampsInside(cable, X_WA, X_WB);
+    if (!inside.empty()) survey->warnings.push_back("cable '" + cable.name + "': " + inside);
     for (const std::string& link : cable.avoid) {
       const Body* body = FindBody(inputs.bodies, cable, link);
       if (!body) continue;
@@ -98,18 +101,30 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   LinkMotionOptions link_options = options.links;
   LinkMotion links(inputs->vehicle, needed, link_options);
   std::uint64_t messages = 0;
+  // Who says that gravity points elsewhere knows what is up.
+  UprightJudge upright(options.gravity_W == kGravityDown ? options.gravity_W
+                                                         : Eigen::Vector3d::Zero());
+  const auto look = [&] {
+    if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
+      upright.Add(links.last_stamp(), X_WR->q);
+  };
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &links);
-    if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
+    if (++messages % kDropInterval == 0) {
+      links.DropBefore(links.last_stamp() - kSurveyHistory);
+      look();
+    }
     return true;
   });
   links.Finish();
+  look();
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason);
   }
   // What could not be used may be why.
   if (!links.Missing().empty())
-    for (const std::string& warning : links.warnings().Sentences()) problems->Add(all, warning);
+    for (const std::string& warning : links.warnings().Sentences(links.Start()))
+      problems->Add(all, warning);
   // How it may be mended, or what is likely to be missed.
   survey.notes = links.Advice();
   for (std::string& topic : UnreadMotion(bags.contents(), bags.topics()))
@@ -117,7 +132,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (!links.Missing().empty())
     for (const std::string& advice : survey.notes) problems->Add(all, advice);
   survey.edges = links.edges();
-  survey.warnings = links.warnings().Sentences();
+  survey.warnings = links.warnings().Sentences(links.Start());
   survey.gaps = links.gap_count();
   survey.world = links.SmoothWorld();
   if (survey.world != links.world()) survey.topmost = links.world();
@@ -127,13 +142,28 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     if (above->second.is_followed) survey.gaps -= above->second.gaps;
     above->second.is_followed = false;
   }
-  survey.findings = links.MotionFindings(survey.world);
+  bool nothing = false;
+  survey.findings = links.CoverageFindings(survey.world, &nothing);
+  for (Finding& finding : links.MotionFindings(survey.world))
+    survey.findings.push_back(std::move(finding));
+  for (Finding& finding : upright.Report(inputs->vehicle.root, survey.world))
+    survey.findings.push_back(std::move(finding));
+  for (Finding& finding : survey.findings) finding.start = links.Start();
   for (const auto& [child, edge] : survey.edges) {
     const bool by_tf =
         edge.source == LinkMotion::Source::kTf || edge.source == LinkMotion::Source::kTfStatic;
     if (by_tf && edge.parent == survey.world) survey.world_is_recorded = true;
   }
   if (!links.Missing().empty()) return;
+  if (nothing) {
+    problems->Add(
+        all, "nothing would be simulated: the links are known together at one instant at most");
+    for (const Finding& finding : survey.findings) problems->Add(all, finding.ToString());
+    for (const std::string& advice : survey.notes) problems->Add(all, advice);
+    if (links.Apart().front().find("two clocks") != std::string::npos)
+      for (std::string& reason : links.Apart()) problems->Add(all, std::move(reason));
+    return;
+  }
 
   link_options.world_frame = survey.world;
   link_options.judge = false;
@@ -168,6 +198,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
                                  inputs->cables.cables, followed);
     for (const ClampJudge& clamps : survey.clamps)
       for (Finding& finding : clamps.Report()) survey.findings.push_back(std::move(finding));
+    for (Finding& finding : survey.findings) finding.start = links.Start();
   }
   inputs->survey = std::move(survey);
 }

@@ -19,6 +19,15 @@ std::size_t CountBodies(const Inputs& inputs, const CableModel& cable) {
 
 }  // namespace
 
+std::vector<std::string> InputWarnings(const Inputs& inputs) {
+  std::vector<std::string> warnings;
+  for (const Problem& warning : inputs.vehicle.warnings.all())
+    warnings.push_back(warning.ToString());
+  if (inputs.survey)
+    warnings.insert(warnings.end(), inputs.survey->warnings.begin(), inputs.survey->warnings.end());
+  return warnings;
+}
+
 std::vector<std::string> Notes(const Inputs& inputs) {
   std::vector<std::string> notes;
   for (const Problem& note : inputs.vehicle.notes.all()) notes.push_back(note.ToString());
@@ -66,6 +75,7 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
     text << "\n";
   }
   if (!inputs.survey) {
+    for (const std::string& warning : InputWarnings(inputs)) text << "warning: " << warning << "\n";
     for (const std::string& note : Notes(inputs)) text << "note: " << note << "\n";
     return text.str();
   }
@@ -92,7 +102,7 @@ std::string Describe(const Inputs& inputs, const EngineOptions& options) {
         static_cast<unsigned long long>(edge.gaps), edge.moves ? "" : ", does not move");
     text << line;
   }
-  for (const std::string& warning : survey.warnings) text << "warning: " << warning << "\n";
+  for (const std::string& warning : InputWarnings(inputs)) text << "warning: " << warning << "\n";
   for (const Finding& finding : survey.findings) {
     text << "warning: " << finding.ToString() << "\n";
   }
@@ -127,6 +137,7 @@ std::string DescribeJson(const Inputs& inputs, const EngineOptions& options,
   json << "},\n  \"world_frame\": "
        << (inputs.survey ? JsonString(inputs.survey->world) : std::string("null"))
        << ",\n  \"gravity\": " << JsonVector(options.gravity_W)
+       << ",\n  \"warning_sentences\": " << JsonStrings(InputWarnings(inputs))
        << ",\n  \"notes\": " << JsonStrings(Notes(inputs)) << ",\n  \"use_record_times\": "
        << (options.links.topics.use_record_times ? "true" : "false") << ",\n  \"findings\": "
        << (inputs.survey ? JsonFindings(inputs.survey->findings) : std::string("[]"))

@@ -58,10 +58,10 @@ std::string JsonFindings(const Findings& findings) {
         "\"kind\": " + JsonString(finding.kind) + ", \"subject\": " + JsonString(finding.subject) +
         ", \"topic\": " + JsonString(finding.topic) +
         ", \"count\": " + std::to_string(finding.count) + ", \"first\": " + Stamp(finding.first) +
-        ", \"worst\": " + Stamp(finding.worst) + ", \"size\": " + JsonNumber(finding.size) +
-        ", \"limit\": " + JsonNumber(finding.limit) + ", \"unit\": " + JsonString(finding.unit) +
-        ", \"what\": " + JsonString(finding.what) + ", \"remedy\": " + JsonString(finding.remedy) +
-        "}";
+        ", \"worst\": " + Stamp(finding.worst) + ", \"start\": " + Stamp(finding.start) +
+        ", \"size\": " + JsonNumber(finding.size) + ", \"limit\": " + JsonNumber(finding.limit) +
+        ", \"unit\": " + JsonString(finding.unit) + ", \"what\": " + JsonString(finding.what) +
+        ", \"remedy\": " + JsonString(finding.remedy) + "}";
   }
   return json + (findings.empty() ? "]" : "\n  ]");
 }

@@ -11,9 +11,8 @@
 namespace cosserat_cable {
 namespace {
 
-// Transports reorder messages by some hundredths of a second; a bag that starts over jumps by its
-// length.
-constexpr std::int64_t kBackwardsJump = 500'000'000;  // [ns]
+// What was rounded, or measured anew, is the same pose [m], [rad].
+constexpr double kSameTranslation = 1e-3, kSameRotation = 2e-3;
 // A tree deeper than this has a cycle.
 constexpr std::size_t kMaxDepth = 1000;
 
@@ -105,31 +104,59 @@ void LinkMotion::UpdateTree() {
   relevant_.insert(roots.begin(), roots.end());
   world_ = options_.world_frame;
   if (world_.empty() && roots.size() == 1) world_ = *roots.begin();
-  for (auto& [child, edge] : edges_) edge.is_followed = relevant_.count(child) > 0;
+  for (auto& [child, edge] : edges_) {
+    const bool was_followed = std::exchange(edge.is_followed, relevant_.count(child) > 0);
+    if (!edge.is_followed || was_followed || edge.samples == 0) continue;
+    // What is below it was not known yet when its samples came; the last one may be the only one.
+    edge.first = edge.last;
+    Sample last;
+    last.stamp = edge.last;
+    last.X_PC = edge.last_pose;
+    Feed(&edge, child, last);
+  }
   followed_.assign(links_.size(), {});
 }
 
 LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std::string& child,
-                                           Source source) {
+                                           Source source, const Pose& X_PC) {
   const auto found = edges_.find(child);
   if (found == edges_.end()) {
     if (IsAbove(child, parent)) {
       warnings_.Count("frame '" + child + "' would be above itself",
-                      "'" + parent + " -> " + child + "' by " + ToString(source) +
-                          " closes a loop of frames and is ignored");
+                      Event("",
+                            "'" + parent + " -> " + child + "' by " + ToString(source) +
+                                " closes a loop of frames and is ignored",
+                            "record it the other way round, or rename one of the frames"));
       return nullptr;
     }
     Edge* edge = &edges_[child];
     edge->parent = parent;
     edge->source = source;
     UpdateTree();
+    const JointModel* joint = JointAbove(child);
+    if (joint != nullptr && joint->parent != parent && edge->is_followed) {
+      warnings_.Count(
+          "frame '" + child + "' has another parent than in the URDF",
+          Event("",
+                "'" + parent + "' by " + ToString(source) + ", the URDF has '" + joint->parent +
+                    "' (joint '" + joint->name + "'); the recorded one counts",
+                "is this the URDF of the vehicle that was recorded? its joint's limits are not "
+                "judged"));
+    }
     return edge;
   }
   Edge* edge = &found->second;
   if (edge->parent != parent) {
+    std::string remedy =
+        "a frame has one parent: stop one of the two publishers, or take its transforms out of the "
+        "recording";
+    if (edge->source == Source::kUrdf && !vehicle_.HasLink(parent))
+      remedy += "; what moves the vehicle has to move its root '" + vehicle_.root + "'";
     warnings_.Count("frame '" + child + "' has two parents",
-                    "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" + parent +
-                        "' by " + ToString(source) + " is ignored");
+                    Event("",
+                          "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" +
+                              parent + "' by " + ToString(source) + " is ignored",
+                          remedy));
     return nullptr;
   }
   if (edge->source == source) return edge;
@@ -143,129 +170,51 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
   }
   if (edge->source == Source::kJointStates && source == Source::kTf) return nullptr;
   // Held at zero by the user's word, whatever the recording says.
-  if (edge->source == Source::kUrdf && source == Source::kJointStates) return nullptr;
-  warnings_.Count(
-      "frame '" + child + "' comes from two sources",
-      std::string(ToString(edge->source)) + " is kept, " + ToString(source) + " is ignored");
+  const JointModel* joint = JointAbove(child);
+  const bool is_held = joint != nullptr && std::count(options_.held_joints.begin(),
+                                                      options_.held_joints.end(), joint->name) > 0;
+  if (edge->source == Source::kUrdf && (source == Source::kJointStates || is_held)) return nullptr;
+  CountContradiction(*edge, child, X_PC, source);
   return nullptr;
+}
+
+// What is said twice in the same way is no contradiction.
+void LinkMotion::CountContradiction(const Edge& edge, const std::string& child, const Pose& X_PC,
+                                    Source source) {
+  const bool is_fixed = edge.source == Source::kUrdf || edge.source == Source::kTfStatic;
+  const double translation = (X_PC.p - edge.last_pose.p).norm();
+  const double rotation = edge.last_pose.q.angularDistance(X_PC.q);
+  if (is_fixed && translation <= kSameTranslation && rotation <= kSameRotation) return;
+  const std::string kept = ToString(edge.source);
+  std::string detail = kept + " is kept, " + ToString(source) + " is ignored";
+  if (is_fixed) {
+    detail += "; it is " + Printed("%.3g mm", 1e3 * translation) + " and " +
+              Printed("%.3g deg", rotation * 180 / M_PI) + " off";
+  }
+  std::string remedy = "publish it as fixed or as moving, not as both";
+  if (edge.source == Source::kUrdf) {
+    remedy =
+        "is this the URDF of the vehicle that was recorded? publish what was measured of a fixed "
+        "frame on " +
+        ToString(Source::kTfStatic) + ", which counts, or make its joint a moving one";
+  }
+  Warnings::Event event = Event("", detail, remedy, message_stamp_);
+  if (is_fixed) {
+    const bool by_place = translation > kSameTranslation;
+    event.size = by_place ? 1e3 * translation : rotation * 180 / M_PI;
+    event.unit = by_place ? "mm" : "deg";
+  }
+  warnings_.Count("frame '" + child + "' comes from two sources", event);
 }
 
 void LinkMotion::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                           Source source) {
-  Edge* edge = AcceptSource(parent, child, source);
+  Edge* edge = AcceptSource(parent, child, source, X_PC);
   if (!edge) return;
   tree_.SetFixed(parent, child, X_PC);
-  if (judge_ && source == Source::kTfStatic && edge->is_followed)
-    judge_->AddFixed(parent, child, X_PC, ToString(source));
-}
-
-void LinkMotion::SetPublisher(const std::string& name, Source source) {
-  if (!judge_ || (publisher_number_ >= 0 && source == publisher_source_ && name == publisher_)) {
-    return;
-  }
-  publisher_ = name;
-  publisher_source_ = source;
-  publisher_number_ =
-      judge_->Publisher((name.empty() ? "somebody" : name) + " on " + ToString(source));
-}
-
-void LinkMotion::AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
-                           const Pose& X_PC, Source source, const double* position) {
-  if (stamp <= 0) {
-    warnings_.Count(std::string("sample without a stamp by ") + ToString(source), child);
-    Unstamped& unstamped = unstamped_[child];
-    unstamped.parent = parent;
-    unstamped.source = source;
-    ++unstamped.samples;
-    return;
-  }
-  Edge* edge = AcceptSource(parent, child, source);
-  if (!edge) {
-    JudgeRejected(parent, child, stamp, X_PC);
-    return;
-  }
-  if (edge->samples > 0 && stamp < edge->last - kBackwardsJump) {
-    Clear();
-    warnings_.Count("time ran backwards");
-  }
-  if (!has_epoch_) {
-    has_epoch_ = true;
-    epoch_ = stamp;
-  }
-  // What is above the frame that the user takes as inertial moves nothing.
-  if (judge_ && edge->is_followed && child != options_.world_frame) {
-    if (!edge->judged) edge->judged = judge_->At(parent, child);
-    judge_->AddSaid(edge->judged, publisher_number_, stamp, X_PC);
-  }
-  const bool in_order = edge->samples == 0 || stamp > edge->last;
-  if (!in_order) {
-    warnings_.Count(stamp == edge->last ? "sample repeated with the same stamp"
-                                        : "sample older than the one before it",
-                    "frame '" + child + "' by " + ToString(source));
-    return;
-  }
-  if (edge->samples == 0) {
-    edge->first = stamp;
-  } else {
-    const std::int64_t interval = stamp - edge->last;
-    edge->longest_interval = std::max(edge->longest_interval, interval);
-    if (edge->gap_rule.IsGap(static_cast<double>(interval) * 1e-9, options_.max_gap,
-                             edge->last_pose, X_PC)) {
-      ++edge->gaps;
-    }
-    edge->moves = edge->gap_rule.moves();
-  }
   edge->last_pose = X_PC;
-  edge->last = stamp;
-  ++edge->samples;
-  last_stamp_ = std::max(last_stamp_, stamp);
-  if (!edge->is_followed) return;
-  if (!edge->samples_of) edge->samples_of = tree_.MovingEdge(parent, child);
-  Judge(edge, child, stamp, X_PC, position);
-  if (!(options_.smooth > 0)) {
-    Deliver(edge, child, stamp, X_PC);
-    return;
-  }
-  if (!edge->smoother) {
-    edge->smoother =
-        &smoothers_.try_emplace(child, options_.smooth, options_.max_gap).first->second;
-  }
-  edge->smoother->Add(stamp, X_PC, [&](std::int64_t smooth_stamp, const Pose& X) {
-    Deliver(edge, child, smooth_stamp, X);
-  });
-}
-
-// As it was recorded.
-void LinkMotion::Judge(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC,
-                       const double* position) {
-  if (!edge->judged) return;
-  edge->judged->topic = ToString(edge->source);
-  const JointModel* joint = edge->judged->joint ? JointAbove(child) : nullptr;
-  if (!joint) return;
-  if (position) {
-    edge->judged->joint->Add(stamp, *position);
-  } else {
-    edge->judged->joint->Add(stamp, X_PC);
-  }
-}
-
-// As the links follow it.
-void LinkMotion::Deliver(Edge* edge, const std::string& child, std::int64_t stamp,
-                         const Pose& X_PC) {
-  if (edge->judged) judge_->AddMotion(edge->judged, stamp, X_PC);
-  if (!tree_.Append(edge->samples_of, Seconds(stamp), X_PC)) {
-    warnings_.Count("sample ignored by the motion curve",
-                    "frame '" + child + "' by " + ToString(edge->source));
-  }
-}
-
-// What does not count may still contradict what does.
-void LinkMotion::JudgeRejected(const std::string& parent, const std::string& child,
-                               std::int64_t stamp, const Pose& X_PC) {
-  if (!judge_) return;
-  const auto known = edges_.find(child);
-  if (known == edges_.end() || known->second.parent != parent || !known->second.judged) return;
-  judge_->AddSaid(known->second.judged, publisher_number_, stamp, X_PC);
+  if (judge_ && source == Source::kTfStatic && edge->is_followed)
+    judge_->AddFixed(parent, child, X_PC, ToString(source), recorded_);
 }
 
 RecordingJudge::Way LinkMotion::WayAboveVehicle() const {
@@ -275,7 +224,16 @@ RecordingJudge::Way LinkMotion::WayAboveVehicle() const {
 }
 
 Findings LinkMotion::MotionFindings(const std::string& world) const {
-  return judge_ ? judge_->Report(WayAboveVehicle(), world) : Findings();
+  if (!judge_) return {};
+  // Clocks and gaps first: they may be why motion looks as it does.
+  Findings findings;
+  const std::set<std::string> above = Above(world);
+  AddClockFindings(above, &findings);
+  AddDriftFindings(above, &findings);
+  AddGapFindings(above, &findings);
+  for (Finding& finding : judge_->Report(WayAboveVehicle(), world))
+    findings.push_back(std::move(finding));
+  return findings;
 }
 
 std::string LinkMotion::SmoothWorld() const {
@@ -284,105 +242,16 @@ std::string LinkMotion::SmoothWorld() const {
   return way.back() == world_ ? judge_->SmoothFrame(way) : world_;
 }
 
-void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static,
-                        const std::string& publisher) {
-  const Source source = is_static ? Source::kTfStatic : Source::kTf;
-  SetPublisher(publisher, source);
-  for (const geometry_msgs::TransformStamped& transform : message.transforms) {
-    const std::string parent = Own(transform.header.frame_id);
-    const std::string child = Own(transform.child_frame_id);
-    Pose X_PC;
-    if (parent.empty() || child.empty() || parent == child) {
-      warnings_.Count(std::string("transform without proper frame ids by ") + ToString(source),
-                      "'" + parent + "' -> '" + child + "'");
-    } else if (!ToPose(transform.transform, &X_PC)) {
-      warnings_.Count(
-          std::string("transform that is no rotation or not finite by ") + ToString(source),
-          "'" + parent + "' -> '" + child + "'");
-    } else if (is_static) {
-      AddFixed(parent, child, X_PC, source);
-    } else {
-      AddSample(parent, child, ToNanoseconds(transform.header.stamp), X_PC, source);
-    }
-  }
-}
-
-void LinkMotion::IngestJoint(const JointModel& joint, double position, std::int64_t stamp) {
-  AddSample(joint.parent, joint.child, stamp, joint.Evaluate(position), Source::kJointStates,
-            &position);
-}
-
-void LinkMotion::Ingest(const sensor_msgs::JointState& message, const std::string& publisher) {
-  SetPublisher(publisher, Source::kJointStates);
-  const std::int64_t stamp = ToNanoseconds(message.header.stamp);
-  if (message.position.size() != message.name.size()) {
-    warnings_.Count("joint state without a position for each name");
-    return;
-  }
-  // One publisher's messages have the same names each time.
-  if (message.name != named_) {
-    named_ = message.name;
-    named_joints_.clear();
-    for (const std::string& name : named_) {
-      const auto joint = joints_.find(Own(name));
-      named_joints_.push_back(joint == joints_.end() ? nullptr : joint->second);
-    }
-  }
-  for (std::size_t i = 0; i < named_.size(); ++i) {
-    const JointModel* joint = named_joints_[i];
-    const double position = message.position[i];
-    if (joint == nullptr) {
-      warnings_.Count("joint not in the URDF", "'" + named_[i] + "'");
-      unknown_joints_.insert(named_[i]);
-    } else if (!std::isfinite(position)) {
-      warnings_.Count("joint position not finite", "'" + named_[i] + "'");
-    } else if (joint->type != JointModel::Type::kFloating &&
-               joint->type != JointModel::Type::kFixed && joint->mimic.empty()) {
-      IngestJoint(*joint, position, stamp);
-      const auto followers = mimics_.equal_range(joint->name);
-      for (auto it = followers.first; it != followers.second; ++it) {
-        const JointModel& follower = *it->second;
-        IngestJoint(follower, follower.mimic_multiplier * position + follower.mimic_offset, stamp);
-      }
-    }
-  }
-}
-
-void LinkMotion::Finish() {
-  for (auto& [child, smoother] : smoothers_) {
-    Edge* edge = &edges_.at(child);
-    smoother.Finish(
-        [&, name = child](std::int64_t stamp, const Pose& X) { Deliver(edge, name, stamp, X); });
-  }
-  tree_.Finish();
-}
-
-void LinkMotion::Clear() {
-  tree_.Clear();
-  if (judge_) judge_->Restart();
-  for (auto& [child, smoother] : smoothers_) smoother.Clear();
-  for (auto& [child, edge] : edges_) {
-    edge.samples = 0;
-    edge.gap_rule = GapRule();
-    edge.first = edge.last = 0;
-  }
-  has_epoch_ = false;
-  last_stamp_ = 0;
-  ++clear_count_;
-}
-
 std::vector<std::string> LinkMotion::Missing() const {
   std::set<std::string> reasons;
-  if (world_.empty()) {
-    reasons.insert(
-        "the links have no common root frame; say which frame is inertial by world_frame");
-  }
+  if (world_.empty()) reasons.insert(NoCommonRoot());
   for (const std::string& link : links_) {
     const std::vector<Step> way = Ascend(link);
     const std::string root = way.empty() ? link : way.back().parent;
     if (!world_.empty() && root != world_) {
       reasons.insert("no transform leads from the world frame '" + world_ + "' to link '" + link +
-                     "' (its tree ends at '" + root + "')");
+                     "' (its tree ends at '" + root + "', which " + Option("world-frame", root) +
+                     " would take)");
     }
     for (const Step& step : way) {
       if (edges_.count(step.child) > 0) continue;
@@ -428,6 +297,22 @@ bool LinkMotion::Range(std::int64_t* begin, std::int64_t* ready) const {
   *begin = std::isfinite(first) ? to_stamp(first) : epoch_;
   *ready = std::isfinite(last) ? to_stamp(last) : last_stamp_;
   return true;
+}
+
+std::optional<Pose> LinkMotion::LatestPose(const std::string& ancestor,
+                                           const std::string& frame) const {
+  Pose X;
+  std::string child = frame;
+  for (std::size_t depth = 0; child != ancestor; ++depth) {
+    const auto edge = edges_.find(child);
+    if (edge == edges_.end() || depth > kMaxDepth) return std::nullopt;
+    const bool is_fixed =
+        edge->second.source == Source::kUrdf || edge->second.source == Source::kTfStatic;
+    if (!is_fixed && edge->second.samples == 0) return std::nullopt;
+    X = edge->second.last_pose * X;
+    child = edge->second.parent;
+  }
+  return X;
 }
 
 Motion LinkMotion::Evaluate(const std::string& link, std::int64_t time) const {

@@ -53,6 +53,7 @@ void ReadGravityParameter(const ros::NodeHandle& node, Problems* problems,
 NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problems) {
   NodeOptions options;
   EngineOptions& engine = options.engine;
+  engine.links.is_node = true;
   ParameterReader reader(parameters, problems);
   reader.Read("vehicle", "the path of a URDF file", &options.inputs.vehicle);
   reader.Read("cables", "the path of a YAML file", &options.inputs.cables);

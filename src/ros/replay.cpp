@@ -96,8 +96,9 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
       advance();
       advance_at = message.time + kReadAhead;
     }
-    if (message.tf) engine->Ingest(*message.tf, message.is_static, message.publisher());
-    if (message.joints) engine->Ingest(*message.joints, message.publisher());
+    if (message.tf)
+      engine->Ingest(*message.tf, message.is_static, message.publisher(), message.time);
+    if (message.joints) engine->Ingest(*message.joints, message.publisher(), message.time);
     sink->Copy(std::move(message));
     return !Interrupted();
   });
@@ -136,6 +137,11 @@ ExitCode RunReplay(ReplayOptions options) {
               << inputs.survey->topmost << "' above it: a localisation's corrections move it\n";
   }
 
+  // Before anybody waits for it.
+  for (const Finding& finding : inputs.survey->findings)
+    if (finding.kind == "limits_the_run" || finding.kind == "one_instant")
+      std::cerr << "warning: " << finding.ToString() << "\n";
+
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   ExitCode code = kExitDone;
   try {
@@ -167,6 +173,8 @@ ExitCode RunReplay(ReplayOptions options) {
 
   Summary summary = engine.MakeSummary();
   summary.notes = Notes(inputs);
+  for (const Problem& warning : inputs.vehicle.warnings.all())
+    summary.warning_sentences.push_back(warning.ToString());
   summary.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   summary.peak_memory = PeakMemory();

@@ -83,6 +83,7 @@ std::string Summary::ToText() const {
     text << line;
     if (cable.stiffness_needed > 0) text << "  warning: " << cable.DepthWarning() << "\n";
     if (!cable.long_elements.empty()) text << "  warning: " << cable.long_elements << "\n";
+    if (!cable.rest_remark.empty()) text << "  warning: " << cable.rest_remark << "\n";
     if (EnergyError(cable) > kLacksTooMuch)
       text << "  warning: its energy balance is off by " << Format("%.3g", cable.energy_residual)
            << " J, " << Format("%.0f", 100 * EnergyError(cable))
@@ -93,7 +94,7 @@ std::string Summary::ToText() const {
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
   if (smooth > 0) text << "links smoothed by a low-pass of " << Format("%g", smooth) << " Hz\n";
-  for (const auto& [kind, count] : warnings) text << "warning: " << kind << ": " << count << "\n";
+  for (const std::string& warning : warning_sentences) text << "warning: " << warning << "\n";
   for (const Finding& finding : findings) text << "warning: " << finding.ToString() << "\n";
   for (const std::string& note : notes) text << "note: " << note << "\n";
   return text.str();
@@ -115,7 +116,9 @@ std::string Summary::ToJson() const {
     json << separator << "\n    " << JsonString(kind) << ": " << count;
     separator = ",";
   }
-  json << (warnings.empty() ? "}" : "\n  }") << ",\n  \"smooth\": " << JsonNumber(smooth)
+  json << (warnings.empty() ? "}" : "\n  }")
+       << ",\n  \"warning_sentences\": " << JsonStrings(warning_sentences)
+       << ",\n  \"smooth\": " << JsonNumber(smooth)
        << ",\n  \"findings\": " << JsonFindings(findings) << ",\n  \"cables\": {";
   separator = "";
   for (const CableSummary& cable : cables) {
@@ -127,6 +130,8 @@ std::string Summary::ToJson() const {
          << ", \"clearance_min\": " << JsonNumber(cable.clearance_min)
          << ", \"bodies\": " << cable.bodies << ", \"long_elements\": "
          << (cable.long_elements.empty() ? "null" : JsonString(cable.long_elements))
+         << ", \"rest_remark\": "
+         << (cable.rest_remark.empty() ? "null" : JsonString(cable.rest_remark))
          << ", \"contact_stiffness\": " << JsonNumber(cable.contact_stiffness)
          << ", \"penetration_max\": " << JsonNumber(cable.penetration_max)
          << ", \"penetration_share_of_radius\": "

@@ -58,10 +58,14 @@ void CableEngine::SwayingCable::Settle(const Instant& now, const std::string& wo
   clamps_.Restart();
   JudgeClamps(now);
   Surround(now);
-  const StepOutcome outcome = simulation_.Settle(surroundings_);
+  const StepOutcome outcome = simulation_.Settle(surroundings_, Unstable::kFalls);
   if (!outcome.ok) {
     Fail("no equilibrium at the start: " + outcome.message, now.time, world);
     return;
+  }
+  if (!outcome.remark.empty()) {
+    summary_.rest_remark = outcome.remark;
+    news_.push_back("cable '" + model().name + "': " + outcome.remark);
   }
   message_ = "swaying";
   Record(now);

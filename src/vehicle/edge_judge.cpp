@@ -6,6 +6,7 @@
 
 #include "cosserat_cable/math/rotation.h"
 #include "motion_channel.h"
+#include "outlier_judge.h"
 
 namespace cosserat_cable {
 namespace {
@@ -19,6 +20,13 @@ constexpr double kLeastShare = 0.05;
 // An event that is no larger than this, in the largest acceleration of rough samples, is one of
 // them.
 constexpr double kFarBeyond = 3;
+// Samples closer together than this part of the mean interval are no motion: the curve leaves one
+// of them out, see PoseCurve.
+constexpr double kTooClose = 0.25;
+// An outlier or a bad stamp makes up to so many large accelerations and jumps.
+constexpr std::uint64_t kEventsOfOne = 4;
+// Of an encoder's step.
+constexpr double kFlip = 1.5;
 // Rounding of poses that do not move [m], [rad].
 constexpr double kStill = 1e-6;
 // What smoothing may leave of the noise [m/s^2], [rad/s^2]: little beside gravity.
@@ -52,6 +60,20 @@ MotionLimits RotationLimits(EdgeRole role) {
   return {20e-3, 200, 20, 10, 4000};
 }
 
+// Of single samples that their neighbours do not explain: what a cable hardly answers to is no
+// fault.
+OutlierLimits LimitsOfOne(EdgeRole role, bool translation) {
+  switch (role) {
+    case EdgeRole::kAboveVehicle:
+      return translation ? OutlierLimits{1e-3, 0.5} : OutlierLimits{1e-3, 1};
+    case EdgeRole::kBody:
+      return translation ? OutlierLimits{1e-3, 10} : OutlierLimits{2e-3, 20};
+    case EdgeRole::kJoint:
+      break;
+  }
+  return translation ? OutlierLimits{1e-3, 20} : OutlierLimits{3e-3, 50};
+}
+
 // The rotation from one pose to the next, in the first one's axes.
 Eigen::Vector3d Turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond turn = from.conjugate() * to;
@@ -81,11 +103,13 @@ struct EdgeJudge::Impl {
       : role(the_role),
         longest(max_gap),
         translation(TranslationLimits(role), max_gap),
-        rotation(RotationLimits(role), max_gap) {}
+        rotation(RotationLimits(role), max_gap),
+        singles(LimitsOfOne(role, true), LimitsOfOne(role, false), max_gap) {}
 
   EdgeRole role;
   double longest;
   MotionChannel translation, rotation;
+  OutlierJudge singles;
   bool moves = false;
 
   struct Sample {
@@ -121,7 +145,29 @@ struct EdgeJudge::Impl {
   }
   /// Whether what makes all samples rough explains this event too.
   bool IsExplained(const MotionChannel& channel, double acceleration) const;
+  /// Whether single samples explain so many events.
+  bool IsSingle(const MotionChannel& channel, std::uint64_t events) const;
+  const OutlierJudge::Found& Singles(const MotionChannel& channel) const {
+    return &channel == &translation ? singles.translation() : singles.rotation();
+  }
+  /// A joint's steps of one size are those of its encoder; so are outliers that are no larger.
+  bool IsEncoder(const MotionChannel& channel) const {
+    return role == EdgeRole::kJoint && Singles(channel).HasQuantum();
+  }
+  bool IsEncoderFlips(const MotionChannel& channel) const {
+    return IsEncoder(channel) &&
+           Singles(channel).outliers.size < kFlip * Singles(channel).steps.size;
+  }
   Finding Start(const char* kind, const MotionChannel::Tally& tally) const;
+  Finding Start(const char* kind, const OutlierJudge::Tally& tally) const;
+  std::string SizeText(const MotionChannel* channel, double size) const {
+    return channel == &translation ? Printed("%.3g mm", 1e3 * size)
+                                   : Printed("%.3g deg", size * 180 / M_PI);
+  }
+  void ReportOutliers(Findings* findings) const;
+  void ReportStamps(Findings* findings) const;
+  void ReportJump(const MotionChannel* channel, Finding finding, double limit, double acceleration,
+                  Findings* findings) const;
   void ReportJumps(Findings* findings) const;
   void ReportAccelerations(Findings* findings) const;
   void ReportLateness(Findings* findings) const;
@@ -143,6 +189,21 @@ bool EdgeJudge::MovesByJumps() const {
   return p.MovesByJumps() || q.MovesByJumps();
 }
 
+Finding EdgeJudge::Corrections(const std::string& subject, const std::string& topic) const {
+  const MotionChannel* channel =
+      impl_->Worse([](const auto& c) { return c.MovesByJumps(); },
+                   [](const auto& c) { return c.largest_step().size / c.limits().jump; });
+  const MotionChannel::Tally& largest = channel->largest_step();
+  Finding finding = impl_->Start("jump", largest);
+  finding.first = finding.worst;
+  finding.limit = channel->limits().jump;
+  finding.unit = impl_->Unit(channel);
+  finding.what = "moves by steps, of up to " + impl_->SizeText(channel, finding.size);
+  finding.subject = subject;
+  finding.topic = topic;
+  return finding;
+}
+
 void EdgeJudge::Restart() {
   impl_->KeepWaiting();
   impl_->has_last = false;
@@ -151,6 +212,7 @@ void EdgeJudge::Restart() {
   impl_->periods = 0;
   impl_->translation.Restart();
   impl_->rotation.Restart();
+  impl_->singles.Restart();
 }
 
 void EdgeJudge::Add(std::int64_t stamp, const Pose& X_PC) { impl_->Add({stamp, X_PC}); }
@@ -158,6 +220,7 @@ void EdgeJudge::Add(std::int64_t stamp, const Pose& X_PC) { impl_->Add({stamp, X
 void EdgeJudge::Impl::Add(const Sample& sample) {
   if (has_last) {
     const double h = Seconds(last.stamp, sample.stamp);
+    if (periods >= kIntervalsToKnowTheRate && h < kTooClose * period()) return;
     const Eigen::Vector3d d = sample.X.p - last.X.p;
     const Eigen::Vector3d turn = Turn(last.X.q, sample.X.q);
     moves = moves || d.squaredNorm() > kStill * kStill || turn.squaredNorm() > kStill * kStill;
@@ -165,10 +228,14 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
       period_sum += h;
       ++periods;
     }
-    translation.AddRaw(d, h, sample.stamp);
-    rotation.AddRaw(turn, h, sample.stamp);
+    // Before the rate is known, intervals may be of two samples nearly at one time.
+    if (periods >= kIntervalsToKnowTheRate) {
+      translation.AddRaw(d, h, sample.stamp);
+      rotation.AddRaw(turn, h, sample.stamp);
+    }
     Keep(sample);
   }
+  singles.Add(sample.stamp, sample.X);
   last = sample;
   has_last = true;
 }
@@ -210,6 +277,21 @@ Finding EdgeJudge::Impl::Start(const char* kind, const MotionChannel::Tally& tal
   return finding;
 }
 
+Finding EdgeJudge::Impl::Start(const char* kind, const OutlierJudge::Tally& tally) const {
+  Finding finding;
+  finding.kind = kind;
+  finding.count = tally.count;
+  finding.first = tally.first;
+  finding.worst = tally.worst;
+  finding.size = tally.size;
+  return finding;
+}
+
+bool EdgeJudge::Impl::IsSingle(const MotionChannel& channel, std::uint64_t events) const {
+  const OutlierJudge::Found& found = Singles(channel);
+  return events <= kEventsOfOne * (found.outliers.count + found.stamps.count);
+}
+
 bool EdgeJudge::Impl::IsExplained(const MotionChannel& channel, double acceleration) const {
   double usual = 0;
   for (const MotionChannel::Tally* rough : {&channel.lateness(), &channel.noise()})
@@ -220,20 +302,34 @@ bool EdgeJudge::Impl::IsExplained(const MotionChannel& channel, double accelerat
 void EdgeJudge::Impl::ReportJumps(Findings* findings) const {
   const MotionChannel* channel = Worse(
       [this](const auto& c) {
-        return c.jumps().count > 0 && !IsExplained(c, c.jumps().acceleration);
+        return c.jumps().count > 0 && !IsSingle(c, c.jumps().count) &&
+               !IsExplained(c, c.jumps().acceleration);
       },
       [](const auto& c) { return c.jumps().size / c.limits().jump; });
+  if (channel) {
+    ReportJump(channel, Start("jump", channel->jumps()), channel->limits().jump,
+               channel->jumps().acceleration, findings);
+    return;
+  }
+  // Smaller ones that stand out all the same.
+  channel = Worse([this](const auto& c) { return Singles(c).steps.count > 0 && !IsEncoder(c); },
+                  [this](const auto& c) { return Singles(c).steps.size / c.limits().jump; });
   if (!channel) return;
-  Finding finding = Start("jump", channel->jumps());
-  finding.limit = channel->limits().jump;
+  const OutlierJudge::Tally& steps = Singles(*channel).steps;
+  ReportJump(channel, Start("jump", steps), LimitsOfOne(role, channel == &translation).size,
+             steps.acceleration, findings);
+}
+
+void EdgeJudge::Impl::ReportJump(const MotionChannel* channel, Finding finding, double limit,
+                                 double acceleration, Findings* findings) const {
+  finding.limit = limit;
   finding.unit = Unit(channel);
-  const std::string size = channel == &translation ? Printed("%.3g mm", 1e3 * finding.size)
-                                                   : Printed("%.3g deg", finding.size * 180 / M_PI);
+  const std::string size = SizeText(channel, finding.size);
   finding.what = finding.count == 1
                      ? "jumps by " + size
                      : "jumps " + std::to_string(finding.count) + " times, by up to " + size;
-  finding.what += " from one sample to the next (" +
-                  Printed("%.3g ", channel->jumps().acceleration) + finding.unit + "/s^2)";
+  finding.what +=
+      " from one sample to the next (" + Printed("%.3g ", acceleration) + finding.unit + "/s^2)";
   finding.remedy =
       role == EdgeRole::kJoint
           ? "was its encoder reset, or are these outliers? cut the recording there (--start, "
@@ -242,11 +338,53 @@ void EdgeJudge::Impl::ReportJumps(Findings* findings) const {
   findings->push_back(std::move(finding));
 }
 
+void EdgeJudge::Impl::ReportOutliers(Findings* findings) const {
+  const MotionChannel* channel =
+      Worse([this](const auto& c) { return Singles(c).outliers.count > 0 && !IsEncoderFlips(c); },
+            [this](const auto& c) { return Singles(c).outliers.size / c.limits().jump; });
+  if (!channel) return;
+  const OutlierJudge::Tally& outliers = Singles(*channel).outliers;
+  Finding finding = Start("outlier", outliers);
+  finding.limit = LimitsOfOne(role, channel == &translation).size;
+  finding.unit = Unit(channel);
+  const std::string size = SizeText(channel, finding.size);
+  finding.what = finding.count == 1 ? "jumps by " + size + " and back at once"
+                                    : "jumps " + std::to_string(finding.count) +
+                                          " times and back at once, by up to " + size;
+  finding.what += " (" + Printed("%.3g ", outliers.acceleration) + finding.unit +
+                  "/s^2; the motion around it explains " + SizeText(channel, outliers.usual) + ")";
+  finding.remedy =
+      "is this an outlier of what measured it? take such samples out of the recording: a link does "
+      "not move so, and --smooth HZ only spreads it";
+  findings->push_back(std::move(finding));
+}
+
+void EdgeJudge::Impl::ReportStamps(Findings* findings) const {
+  const MotionChannel* channel =
+      Worse([this](const auto& c) { return Singles(c).stamps.count > 0; },
+            [this](const auto& c) { return Singles(c).stamps.size / c.limits().jump; });
+  if (!channel) return;
+  const OutlierJudge::Tally& stamps = Singles(*channel).stamps;
+  Finding finding = Start("bad_stamp", stamps);
+  finding.size = stamps.lateness;
+  finding.limit = kTooClose * period();
+  finding.unit = "s";
+  finding.what = finding.count == 1
+                     ? "has a sample with a bad stamp"
+                     : "has " + std::to_string(finding.count) + " samples with bad stamps";
+  finding.what += ", " + Printed("%.3g ms too ", 1e3 * std::abs(stamps.lateness)) +
+                  (stamps.lateness > 0 ? "late" : "early") + ": it is " +
+                  SizeText(channel, stamps.size) + " off there, and on its way at an even time";
+  finding.remedy = "stamp poses when they are measured, or take such samples out of the recording";
+  findings->push_back(std::move(finding));
+}
+
 void EdgeJudge::Impl::ReportAccelerations(Findings* findings) const {
   // A jump is an acceleration too: it is told once.
   const MotionChannel* channel = Worse(
       [this](const auto& c) {
-        return c.accelerations().count > 0 && c.jumps().count == 0 &&
+        return c.accelerations().count > 0 && c.jumps().count == 0 && Singles(c).steps.count == 0 &&
+               !IsSingle(c, c.accelerations().count) &&
                !IsExplained(c, c.accelerations().acceleration);
       },
       [](const auto& c) { return c.accelerations().size / c.limits().acceleration; });
@@ -308,10 +446,14 @@ Findings EdgeJudge::Report(const std::string& subject, const std::string& topic)
   Findings findings;
   // A recording of less is judged by what there is.
   if (impl_->stride == 0) impl_->KeepWaiting();
-  impl_->ReportJumps(&findings);
-  impl_->ReportAccelerations(&findings);
-  impl_->ReportLateness(&findings);
-  impl_->ReportNoise(&findings);
+  Impl whole = *impl_;
+  whole.singles.JudgeRest();
+  whole.ReportJumps(&findings);
+  whole.ReportOutliers(&findings);
+  whole.ReportStamps(&findings);
+  whole.ReportAccelerations(&findings);
+  whole.ReportLateness(&findings);
+  whole.ReportNoise(&findings);
   for (Finding& finding : findings) {
     finding.subject = subject;
     finding.topic = topic;

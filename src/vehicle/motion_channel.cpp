@@ -9,6 +9,8 @@ namespace {
 // A jump is a change of velocity that is taken back at once: what is around it is calm. Motion of a
 // body that is sampled badly (three samples a period) still has neighbours half as large.
 constexpr double kCalm = 1.0 / 3;
+// Of a step of the motion around a gap.
+constexpr double kHardlyFarther = 2;
 // One sample is out of the ordinary where the second difference is so many times the usual one;
 // encoder steps are twice the usual one at most.
 constexpr double kOutOfOrdinary = 8;
@@ -82,6 +84,10 @@ void MotionChannel::Add(const Eigen::Vector3d& d, double h, std::int64_t stamp) 
 void MotionChannel::LookForJump() {
   const auto change = [this](int i) { return Eigen::Vector3d(ring_[i + 1].v - ring_[i].v); };
   const Step& middle = ring_[2];
+  // A pose that is hardly another one behind a gap did not jump, however fast the motion around is.
+  if (middle.h > max_gap_ &&
+      middle.d.norm() < kHardlyFarther * std::max(ring_[1].d.norm(), ring_[3].d.norm()))
+    return;
   // Across a gap the motion is not known; above the vehicle, slow corrections are the rule.
   const double h = std::min(middle.h, max_gap_);
   const double excess = (change(1) - change(2)).norm() / 2 * middle.h;
@@ -98,6 +104,7 @@ void MotionChannel::AddToBlock(const Step& before, const Step& step) {
   const Eigen::Vector3d change_of_step = step.d - before.d;
   squared_steps_ += step.d.squaredNorm();
   squared_changes_ += change_of_step.squaredNorm();
+  if (step.d.norm() >= limits_.jump) largest_step_.Add(step.stamp, step.d.norm(), 0);
   const double h_mean = (step.h + before.h) / 2;
   const double h_capped = std::min(std::min(step.h, before.h), max_gap_);
   const double size = change_of_step.norm();

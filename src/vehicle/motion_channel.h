@@ -47,6 +47,8 @@ class MotionChannel {
   const Tally& lateness() const { return lateness_; }
   double worst_lateness() const { return worst_lateness_; }  ///< spread of the delays [s]
   std::uint64_t blocks() const { return blocks_; }
+  /// The largest displacement that counts as one of a correction, and how many there were.
+  const Tally& largest_step() const { return largest_step_; }
   /// Whether most of the motion happened in single steps, and steps of a size that counts.
   bool MovesByJumps() const;
 
@@ -76,6 +78,7 @@ class MotionChannel {
   int ring_size_ = 0;
   double squared_steps_ = 0, squared_changes_ = 0;
   double largest_change_ = 0, largest_acceleration_ = 0;
+  Tally largest_step_;
 
   struct Block {
     int count = 0;

@@ -63,6 +63,11 @@ bool MotionTree::Append(const Edge& edge, double time, const Pose& X_PC) {
   return edge && edge.frame_->curve.Append(time, X_PC);
 }
 
+void MotionTree::Restart(const Edge& edge) {
+  ++revision_;
+  if (edge) edge.frame_->curve = PoseCurve(max_gap_);
+}
+
 void MotionTree::Finish() {
   ++revision_;
   for (auto& [name, frame] : frames_) frame.curve.Finish();

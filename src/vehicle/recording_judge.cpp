@@ -76,7 +76,7 @@ void RecordingJudge::AddMotion(Edge* edge, std::int64_t stamp, const Pose& X_PC)
 }
 
 void RecordingJudge::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
-                              const std::string& topic) {
+                              const std::string& topic, std::int64_t recorded) {
   Edge* edge = At(parent, child);
   const JointModel* drawn = JointAbove(vehicle_, child);
   const bool by_urdf = !edge->fixed && drawn && drawn->type == JointModel::Type::kFixed;
@@ -95,6 +95,7 @@ void RecordingJudge::AddFixed(const std::string& parent, const std::string& chil
   finding.remedy = by_urdf ? "is this the URDF of the vehicle that was recorded?"
                            : "do two publishers disagree?";
   finding.count = 1;
+  finding.first = finding.worst = recorded;
   finding.size = translation;
   finding.limit = kSameTranslation;
   finding.unit = "m";
@@ -185,6 +186,8 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
     const bool is_corrected = above && edge.correction && edge.correction->MovesByJumps();
     Findings motion = (is_corrected ? *edge.correction : edge.motion).Report(subject, edge.topic);
     if (is_corrected) {
+      // Many small ones, none of which stands out.
+      if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
       for (Finding& finding : motion)
         finding.remedy = world == smooth
                              ? "a localisation corrects it, so '" + smooth +
@@ -192,6 +195,16 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
                              : "a localisation corrects it: take the frame below as inertial, "
                                "--world-frame " +
                                    smooth + " (~world_frame of the node)";
+    }
+    // A vehicle that stands still in a frame that is corrected.
+    if (!is_corrected && motion.empty() && edge.correction && edge.correction->MovesByJumps()) {
+      motion = edge.correction->Report(subject, edge.topic);
+      if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
+      for (Finding& finding : motion)
+        finding.remedy =
+            "does a localisation correct it? then take the frame below as inertial, "
+            "--world-frame " +
+            child + " (~world_frame of the node)";
     }
     std::move(motion.begin(), motion.end(), std::back_inserter(findings));
     if (edge.joint) {

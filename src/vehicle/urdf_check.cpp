@@ -28,8 +28,13 @@ std::string Nearest(const std::string& word, const std::vector<std::string>& can
 class UrdfCheck {
  public:
   UrdfCheck(const XMLElement& robot, std::string path, const UrdfUse& use, Problems* problems,
-            Problems* notes)
-      : robot_(robot), path_(std::move(path)), use_(use), problems_(*problems), notes_(*notes) {}
+            Problems* warnings, Problems* notes)
+      : robot_(robot),
+        path_(std::move(path)),
+        use_(use),
+        problems_(*problems),
+        warnings_(*warnings),
+        notes_(*notes) {}
 
   void Run() {
     Collect("link", &links_);
@@ -46,6 +51,10 @@ class UrdfCheck {
 
   void Add(const XMLElement& where, const std::string& key, const std::string& message) {
     problems_.Add(path_, where.GetLineNum(), key, message);
+  }
+
+  void Warn(const XMLElement& where, const std::string& key, const std::string& message) {
+    warnings_.Add(path_, where.GetLineNum(), key, message);
   }
 
   void Note(const XMLElement& where, const std::string& key, const std::string& message) {
@@ -227,7 +236,30 @@ class UrdfCheck {
         Add(*axis, key + ".axis.xyz", "got '0 0 0', expected a direction");
       }
     }
+    if (IsUsed(name) && (type == "revolute" || type == "prismatic"))
+      CheckLimit(key + ".limit", type, joint);
     CheckMimic(name, joint);
+  }
+
+  /// urdfdom asks for a limit and takes any; without a range nothing is judged by it.
+  void CheckLimit(const std::string& key, const std::string& type, const XMLElement& joint) {
+    const XMLElement* limit = joint.FirstChildElement("limit");
+    if (!limit) {
+      Warn(joint, key,
+           "is missing: the URDF's specification asks for one of a " + type +
+               " joint, and its positions are not judged: add <limit lower=... upper=... "
+               "effort=... velocity=.../>" +
+               (type == "revolute" ? ", or make it continuous" : ""));
+      return;
+    }
+    const std::vector<double> lower = CheckNumbers(*limit, key, "lower", 1, Range::kFinite, false);
+    const std::vector<double> upper = CheckNumbers(*limit, key, "upper", 1, Range::kFinite, false);
+    const double from = lower.empty() ? 0 : lower[0], to = upper.empty() ? 0 : upper[0];
+    if (from <= to) return;
+    Warn(*limit, key,
+         "got lower " + FormatRounded(from, 6) + " and upper " + FormatRounded(to, 6) +
+             ", expected lower to be no more than upper: its positions are not judged; are they "
+             "interchanged?");
   }
 
   void CheckMimic(const std::string& name, const XMLElement& joint) {
@@ -310,6 +342,7 @@ class UrdfCheck {
   std::string path_;
   const UrdfUse& use_;
   Problems& problems_;
+  Problems& warnings_;
   Problems& notes_;
   Named links_, joints_;
   std::set<std::string> used_joints_;
@@ -318,9 +351,9 @@ class UrdfCheck {
 }  // namespace
 
 void CheckUrdf(const XMLElement& robot, const std::string& path, const UrdfUse& use,
-               Problems* problems, Problems* notes) {
+               Problems* problems, Problems* warnings, Problems* notes) {
   Problems found;
-  UrdfCheck(robot, path, use, &found, notes).Run();
+  UrdfCheck(robot, path, use, &found, warnings, notes).Run();
   // What only xacro understands is nothing to urdfdom: it does not matter where all else is there.
   for (const XMLElement* e = robot.FirstChildElement(); e; e = e->NextSiblingElement()) {
     if (std::string(e->Name()).rfind("xacro:", 0) != 0) continue;

@@ -19,9 +19,10 @@ struct UrdfUse {
 };
 
 /// Checks the robot's links and joints: that urdfdom can read them, and that what is used is not
-/// nonsense. `path` names the file. `notes`: what counts for nothing, although it is used.
+/// nonsense. `path` names the file. `warnings`: what contradicts itself and is read all the same;
+/// `notes`: what counts for nothing, although it is used.
 void CheckUrdf(const tinyxml2::XMLElement& robot, const std::string& path, const UrdfUse& use,
-               Problems* problems, Problems* notes);
+               Problems* problems, Problems* warnings, Problems* notes);
 
 /// The `name` attribute, or "" where there is none.
 std::string NameOf(const tinyxml2::XMLElement& element);

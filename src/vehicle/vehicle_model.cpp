@@ -152,7 +152,7 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
   }
   Problems found, complaints;
   CheckUrdf(*robot, path, {collision_links, use.visual_links, use.moving_links}, &found,
-            &vehicle.notes);
+            &vehicle.warnings, &vehicle.notes);
   // urdfdom stops at its first error, and would repeat these without a line.
   const urdf::ModelInterfaceSharedPtr model =
       found.empty() ? ParseUrdf(&document, path, &found, &complaints) : nullptr;

@@ -52,6 +52,42 @@ TEST(CableSimulationTest, RestsSymmetricallyAndCarriesItsWeight) {
   EXPECT_TRUE(std::isinf(report.clearance));
 }
 
+/// Stands on both clamps in the plane of x and z, and is too heavy for that.
+Surroundings StandingArch() {
+  Surroundings s;
+  s.b.X.p = {0.2, 0, 0};
+  s.b.X.q = Eigen::Quaterniond(0, 0, 1, 0);  // a3 down
+  return s;
+}
+
+TEST(CableSimulationTest, AnUnstableArchFallsToOneSideIfItIsToldTo) {
+  const CableModel arch = RoundCableModel(0.4, 0.005, 0.2, 1e-3, 1e-3, 1e-5);
+  CableSimulation stays(arch, {}, kGravity), falls(arch, {}, kGravity);
+  EXPECT_EQ(stays.Settle(StandingArch()).remark, "");
+  EXPECT_TRUE(stays.FindModes(1)[0].unstable());
+  EXPECT_GT(LowestPoint(stays), -1e-9);
+
+  const StepOutcome outcome = falls.Settle(StandingArch(), Unstable::kFalls);
+  ASSERT_TRUE(outcome.ok) << outcome.message;
+  EXPECT_NE(outcome.remark.find("unstable equilibrium"), std::string::npos);
+  EXPECT_FALSE(falls.FindModes(1)[0].unstable());
+  EXPECT_GT(falls.FindModes(1)[0].w, 1);
+  // It has come down, and stays there.
+  const Vector3d apex = falls.Report().apex;
+  EXPECT_LT(apex.z(), stays.Report().apex.z() - 0.05);
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(falls.Step(1e-3, StandingArch()).ok);
+  EXPECT_LT((falls.Report().apex - apex).norm(), 1e-7);
+}
+
+TEST(CableSimulationTest, AStableRestIsTheSameWithAndWithoutTheLook) {
+  CableSimulation plain(Hose(), {}, kGravity), looked(Hose(), {}, kGravity);
+  ASSERT_TRUE(plain.Settle(HoseClamps()).ok);
+  const StepOutcome outcome = looked.Settle(HoseClamps(), Unstable::kFalls);
+  ASSERT_TRUE(outcome.ok);
+  EXPECT_EQ(outcome.remark, "");
+  EXPECT_EQ(plain.Report().apex, looked.Report().apex);
+}
+
 TEST(CableSimulationTest, StaysAtRestWhereNothingMoves) {
   constexpr double kDrift = 1e-8;  // m
   CableSimulation cable(Hose(), {}, kGravity);

@@ -239,6 +239,81 @@ cables:
         self.assertIn("joint 'travel'", status.message)
         self.assertIn("joint_limit: joint 'travel'", [pair.key for pair in status.values])
 
+    def rolling(self, *more, seconds=4, shift=0.0):
+        """A cart that rolls on at 2 m/s, 100 times a second, and `more` messages."""
+        return [*more, *[('/tf', 100 + i / 100,
+                          self.moved('odom', 'base_link', 100 + i / 100 + shift, 0.02 * i))
+                         for i in range(100 * seconds)]]
+
+    def test_an_edge_that_was_sent_once_is_refused(self):
+        bag = self.write_messages('once.bag', self.rolling(
+            ('/tf', 100.5, self.moved('map', 'odom', 100.5, 5))))
+        for name, text in (('v.urdf', self.CART), ('c.yaml', self.ARCH % 'base_link')):
+            with open(self.path(name), 'w') as target:
+                target.write(text)
+        self.refused('nothing would be simulated', 'map -> odom (/tf) has one sample only',
+                     '100.500 s (0.500 s after the start)', '/tf_static', '--world-frame odom',
+                     vehicle=self.path('v.urdf'), cables=self.path('c.yaml'), bag=bag)
+
+    def test_an_edge_that_ends_early_is_told(self):
+        bag = self.write_messages('early.bag', self.rolling(
+            *[('/tf', 100 + i, self.moved('map', 'odom', 100 + i, 5)) for i in range(4)]))
+        for result in self.judged(bag):
+            finding, = result['findings']
+            self.assertEqual((finding['kind'], finding['subject'], finding['topic']),
+                             ('limits_the_run', 'map -> odom', '/tf'))
+            self.assertAlmostEqual(finding['size'], 0.99)
+            self.assertAlmostEqual(finding['start'], 100)
+        self.assertAlmostEqual(result['simulated_time'], 3, 2)
+
+    def test_a_spike_of_one_sample_is_told(self):
+        messages = self.rolling()
+        messages[200][2].transforms[0].transform.translation.z = 0.01
+        for result in self.judged(self.write_messages('spike.bag', messages)):
+            finding, = result['findings']
+            self.assertEqual((finding['kind'], finding['subject']),
+                             ('outlier', 'odom -> base_link'))
+            self.assertAlmostEqual(finding['size'], 0.01, 4)
+            self.assertAlmostEqual(finding['worst'], 102)
+
+    def test_samples_that_do_not_count_are_told_with_time_size_and_remedy(self):
+        messages = self.rolling()
+        messages[100][2].transforms[0].transform.translation.y = math.nan
+        messages[150][2].transforms[0].transform.rotation.w = 3
+        messages[200][2].transforms[0].header.stamp = rospy.Time()
+        messages[250][2].transforms[0].header.stamp = rospy.Time(109)
+        messages += self.rolling(('/tf', 103, self.moved('map', 'base_link', 103, 0)), seconds=0)
+        bag = self.write_messages('bad.bag', messages)
+        self.judged(bag)
+        for tool, output in (('cable_check', []), ('cable_replay', ['--output', self.path('o.bag')])):
+            code, text = run(tool, '--vehicle', self.path('v.urdf'), '--cables',
+                             self.path('c.yaml'), '--bag', bag, *output)
+            self.assertEqual(code, 0, text)
+            for words in (
+                    "transform that is no rotation or not finite by /tf: 2 (first: 'odom' -> "
+                    "'base_link', its translation is not finite), at 101.000 s (1.000 s after the "
+                    "start): it is left out",
+                    "sample without a stamp by /tf: 1 (first: base_link), at 102.000 s (2.000 s "
+                    "after the start): --use-record-times",
+                    "sample with a bad stamp: 1 (first: frame 'base_link' by /tf, too late), at "
+                    "109.000 s (9.000 s after the start), by up to 6.5 s: it is left out",
+                    "frame 'base_link' has two parents: 1 (first: 'odom' by /tf is kept, 'map' by "
+                    "/tf is ignored), at 103.000 s (3.000 s after the start): a frame has one parent"):
+                self.assertIn(words, text, tool)
+
+    def test_recordings_in_a_loop_are_told(self):
+        messages = self.rolling() + [(topic, stamp + 4, message)
+                                     for topic, stamp, message in self.rolling()]
+        bag = self.write_messages('loop.bag', messages)
+        check, replay = self.judged(bag)
+        self.assertEqual(replay['resets'], 1)
+        code, text = run('cable_check', '--vehicle', self.path('v.urdf'), '--cables',
+                         self.path('c.yaml'), '--bag', bag)
+        self.assertIn("time ran backwards: 1 (first: frame 'base_link' from 103.989 s to 100.000 s), "
+                      'at 103.989 s (3.990 s after the start), by up to 3.99 s: all starts anew '
+                      'there', text)
+        self.assertIn('ok, but for 1 warning', text)
+
     # ---- Arguments.
 
     def test_unknown_option(self):
@@ -402,6 +477,56 @@ cables:
             self.assertGreater(loom['penetration_max'], 0)
             self.assertIsNone(loom['contact_stiffness_needed'])
             self.assertNotIn('sinks', text)
+
+    # ---- Where cables come to rest.
+
+    def arch(self, change):
+        """Check and replay of the arch on a cart that stands still: exit code and text of each."""
+        bag = self.write_messages('still.bag', [
+            ('/tf', 10 + i / 100, self.moved('odom', 'base_link', 10 + i / 100, 0))
+            for i in range(101)])
+        for name, text in (('v.urdf', self.CART), ('c.yaml', change(self.ARCH % 'base_link'))):
+            with open(self.path(name), 'w') as target:
+                target.write(text)
+        return [run(tool, '--vehicle', self.path('v.urdf'), '--cables', self.path('c.yaml'),
+                    '--bag', bag, *output)
+                for tool, output in (('cable_check', []),
+                                     ('cable_replay', ['--output', self.path('o.bag')]))]
+
+    def test_an_obstacle_that_holds_the_clamps_inside_is_told(self):
+        plane = '    extensions: {contact: {plane: {azimuth: 0, elevation: 1.5707963, offset: 0.05}}}\n'
+        (code, text), (replay_code, replay_text) = self.arch(lambda text: text + plane)
+        self.assertEqual((code, replay_code), (0, 0), text + replay_text)
+        inside = ('the obstacle of extensions.contact holds the cable: clamp a is 52.5 mm inside, '
+                  'clamp b is 52.5 mm inside')
+        self.assertIn("warning: cable 'lead': " + inside, text)
+        self.assertIn('ok, but for 1 warning', text)
+        self.assertIn("cable 'lead': " + inside, replay_text)
+        self.assertIn('warning: ' + inside, replay_text)
+        # Also where no equilibrium is found against it.
+        for azimuth, elevation in ((0, 0), (1.5707963, 0), (0, -1.5707963)):
+            other = ('    extensions: {contact: {plane: {azimuth: %g, elevation: %g, offset: 0.3}, '
+                     'stiffness: 1.0e7}}\n' % (azimuth, elevation))
+            _, (_, replay_text) = self.arch(lambda text: text + other)
+            self.assertIn('clamp a is 302 mm inside', replay_text)
+            self.assertNotIn('too far apart', replay_text)
+
+    def test_a_cable_that_would_balance_falls_and_says_so(self):
+        def standing(text):
+            for old, new in (('[0, 0, 1, 1, 0, 0, 0]', '[0, 0, 1, 0, 0, 0, 1]'),
+                             ('[0, 0.2, 1, 0, 0, 0, 1]', '[0.2, 0, 1, 0, 1, 0, 0]'),
+                             ('mass_per_length: 0.03', 'mass_per_length: 0.2'),
+                             ('EI: 2.5e-3', 'EI: 1.0e-3')):
+                self.assertIn(old, text)
+                text = text.replace(old, new)
+            return text
+        _, (code, text) = self.arch(standing)
+        self.assertEqual(code, 0, text)
+        self.assertIn("cable 'lead': it would balance in an unstable equilibrium", text)
+        self.assertIn('warning: it would balance', text)
+        self.assertNotIn('energy balance', text)
+        _, (code, text) = self.arch(lambda text: text)
+        self.assertNotIn('equilibrium', text)
 
     # ---- Recordings.
 

@@ -59,7 +59,8 @@ class Options(unittest.TestCase):
             file.write(LOOM.format(b=b))
 
     def record(self, name='in.bag', joints='/joint_states', tf='/tf', frame='odom', prefix='',
-               stamped=True, angle=lambda t: 0.0, imu=None, count=101, start=10.0):
+               stamped=True, angle=lambda t: 0.0, imu=None, count=101, start=10.0,
+               turn=(0.0, 0.0, 0.0, 1.0)):
         """A bag of 1 s: what is None is not in it."""
         with rosbag.Bag(self.path(name), 'w') as bag:
             for i in range(count):
@@ -73,7 +74,8 @@ class Options(unittest.TestCase):
                     edge = TransformStamped(child_frame_id=prefix + 'chassis')
                     edge.header.stamp = stamp
                     edge.header.frame_id = prefix + frame
-                    edge.transform.rotation.w = 1.0
+                    rotation = edge.transform.rotation
+                    rotation.x, rotation.y, rotation.z, rotation.w = turn
                     bag.write(tf, TFMessage([edge]), time)
                 if imu:
                     message = Imu()
@@ -159,6 +161,30 @@ class Options(unittest.TestCase):
             self.assertNotIn('/imu/data', text)
 
     # ---- Names.
+
+    def test_a_vehicle_upside_down_is_asked_about(self):
+        bag = self.record(turn=(1.0, 0.0, 0.0, 0.0))
+        for code, text in (self.check(bag), self.replay(bag)):
+            self.assertEqual(code, 0, text)
+            self.assertIn('the vehicle hangs upside down in all of the recording', text)
+            self.assertIn("does the z axis of 'odom' point down? --gravity 0,0,9.81", text)
+            self.assertIn('gravity 9.81 m/s^2 along -z of odom', text)
+        code, text = self.check(bag, '--gravity', '0,0,9.81')
+        self.assertNotIn('upside down', text)
+
+    def test_limits_that_say_nothing_are_warned_of(self):
+        with open(self.path('rover.urdf')) as file:
+            text = file.read()
+        with open(self.path('rover.urdf'), 'w') as file:
+            file.write(text.replace('lower="-1" upper="1"', 'lower="1" upper="-1"'))
+        bag = self.record()
+        code, text = self.check(bag)
+        self.assertEqual(code, 0, text)
+        self.assertIn('warning: %s:5: joint[rocker_joint].limit: got lower 1 and upper -1'
+                      % self.path('rover.urdf'), text)
+        self.assertIn('ok, but for 1 warning', text)
+        code, text = self.replay(bag)
+        self.assertIn('joint[rocker_joint].limit: got lower 1 and upper -1', text)
 
     def test_topics_in_a_namespace_are_offered_and_read(self):
         bag = self.record(joints='/rover1/joint_states', tf=None)

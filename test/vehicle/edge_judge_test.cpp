@@ -152,8 +152,124 @@ TEST(EdgeJudge, OneSampleFarOffIsTold) {
                                  const bool off = std::abs(t - 3.002) < 1e-6;
                                  return At(0.02 * std::sin(6 * t) + (off ? 0.03 : 0));
                                }});
-  ASSERT_EQ(Kinds(findings), "acceleration");
+  ASSERT_EQ(Kinds(findings), "outlier");
   EXPECT_EQ(findings[0].worst, Stamp(kStart + 3.002));
+  EXPECT_NEAR(findings[0].size, 0.03, 1e-3);
+}
+
+// ---- Single samples, however small ------------------------------------------------------------
+
+// A body over a rough road: heave of 1.3 Hz, wheel hop of 12 Hz.
+double Rough(double t) {
+  return 0.03 * std::sin(2 * M_PI * 1.3 * t) + 2e-3 * std::sin(2 * M_PI * 12 * t + 1) +
+         1e-3 * std::sin(2 * M_PI * 7.7 * t);
+}
+
+TEST(EdgeJudge, ASmallSpikeOfOneSampleIsToldWithTimeAndSize) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const int length : {1, 2}) {
+      const Findings findings = Found(role, {100, 10, [&](double t) {
+                                               const int i = static_cast<int>(std::lround(100 * t));
+                                               const bool off = i >= 432 && i < 432 + length;
+                                               return At(Rough(t) + (off ? 0.009 : 0));
+                                             }});
+      ASSERT_EQ(Kinds(findings), "outlier") << length;
+      EXPECT_EQ(findings[0].count, 1u);
+      EXPECT_EQ(findings[0].first, Stamp(kStart + 4.32));
+      EXPECT_NEAR(findings[0].size, 0.009, 0.002);
+      EXPECT_NE(findings[0].what.find("and back at once"), std::string::npos) << findings[0].what;
+    }
+  }
+}
+
+TEST(EdgeJudge, SpikesOfARotationAreToldToo) {
+  const Findings findings =
+      Found(EdgeRole::kJoint, {100, 10, [](double t) {
+                                 const int i = static_cast<int>(std::lround(100 * t));
+                                 return At(0, 5 * t + (i % 300 == 299 ? 0.05 : 0));
+                               }});
+  ASSERT_EQ(Kinds(findings), "outlier");
+  EXPECT_EQ(findings[0].count, 3u);
+  EXPECT_EQ(findings[0].unit, "rad");
+  EXPECT_NEAR(findings[0].size, 0.05, 1e-3);
+}
+
+TEST(EdgeJudge, ASmallStepIsToldWithTimeAndSize) {
+  const Findings findings = Found(
+      EdgeRole::kBody, {100, 10, [](double t) { return At(2 * t + (t > 4.999 ? 0.004 : 0)); }});
+  ASSERT_EQ(Kinds(findings), "jump");
+  EXPECT_EQ(findings[0].worst, Stamp(kStart + 5));
+  EXPECT_NEAR(findings[0].size, 0.004, 1e-6);
+}
+
+TEST(EdgeJudge, BlowsAndStartsAreNoSpikes) {
+  // A bump stop turns the motion round within 20 ms; a joint starts and stops at once.
+  const auto blow = [](double t) {
+    const double u = t - 5;
+    if (u < -0.01) return At(u);
+    return At(u < 0.01 ? -0.01 + 50 * (u * u - 1e-4) : -u);
+  };
+  const auto starts = [](double t) { return At(t < 5.003 ? 0 : std::min(0.1 * (t - 5.003), 0.1)); };
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 200.0, 500.0}) {
+      EXPECT_EQ(Kinds(Found(role, {rate, 10, blow})), "") << rate;
+      EXPECT_EQ(Kinds(Found(role, {rate, 10, starts})), "") << rate;
+    }
+  }
+}
+
+TEST(EdgeJudge, StepsOfACoarseEncoderAreNoJumpsAndNoOutliers) {
+  std::mt19937 random(8);
+  std::normal_distribution<double> noise(0, 2e-4);
+  for (const double step : {0.001, 0.002}) {
+    const auto coarse = [&](double t) {
+      const double x = 0.03 * std::sin(2 * M_PI * 0.1 * t) + noise(random);
+      return At(step * std::round(x / step), 3 * step * std::round(x / step));
+    };
+    for (const double rate : {50.0, 100.0, 500.0}) {
+      const std::string kinds = Kinds(Found(EdgeRole::kJoint, {rate, 30, coarse}));
+      EXPECT_TRUE(kinds.empty() || kinds == "noise") << kinds << " " << step << " " << rate;
+    }
+  }
+}
+
+TEST(EdgeJudge, HolesAreNoBadStamps) {
+  EdgeJudge judge(EdgeRole::kJoint, kMaxGap);
+  for (int i = 0; i < 1000; ++i)
+    if (i < 500 || i > 505) judge.Add(Stamp(kStart + 0.005 * i), At(Rough(0.005 * i)));
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
+}
+
+TEST(EdgeJudge, NoiseHasNoSpikes) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0, 3e-4);
+  const Findings findings =
+      Found(EdgeRole::kJoint, {100, 600, [&](double t) { return At(Rough(t) + noise(random)); }});
+  EXPECT_EQ(Kinds(findings), "");
+}
+
+TEST(EdgeJudge, OneBadStampIsCalledSo) {
+  for (const double off : {-0.004, 0.004, 0.007}) {
+    EdgeJudge judge(EdgeRole::kBody, kMaxGap);
+    for (int i = 0; i < 1000; ++i) {
+      const double t = 0.01 * i;
+      judge.Add(Stamp(kStart + t + (i == 500 ? off : 0)), At(10 * t));
+    }
+    const Findings findings = judge.Report("", "");
+    ASSERT_EQ(Kinds(findings), "bad_stamp") << off;
+    EXPECT_EQ(findings[0].count, 1u);
+    EXPECT_EQ(findings[0].worst, Stamp(kStart + 5 + off));
+    EXPECT_NEAR(findings[0].size, off, 1e-4);
+  }
+}
+
+TEST(EdgeJudge, TwoSamplesNearlyAtOneTimeAreNoJump) {
+  EdgeJudge judge(EdgeRole::kBody, kMaxGap);
+  for (int i = 0; i < 1000; ++i) {
+    judge.Add(Stamp(kStart + 0.01 * i), At(0.1 * i));
+    if (i == 500) judge.Add(Stamp(kStart + 0.01 * i) + 1, At(0.1 * i + 0.05));
+  }
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
 }
 
 // ---- Corrections ------------------------------------------------------------------------------

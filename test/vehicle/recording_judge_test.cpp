@@ -64,6 +64,31 @@ TEST_F(RecordingJudgeTest, TheFrameBelowACorrectedOneIsInertial) {
   EXPECT_NE(judge_.Report(way, "map")[0].remedy.find("--world-frame odom"), std::string::npos);
 }
 
+TEST_F(RecordingJudgeTest, CorrectionsOfAVehicleThatStandsStillAreToldToo) {
+  Drive("odom", "base_link", [](int) { return 1.0; });
+  Drive("map", "odom", [](int i) { return 7 + 0.004 * (i / 100); });
+  const RecordingJudge::Way way = {"base_link", "odom", "map"};
+  const Findings findings = judge_.Report(way, judge_.SmoothFrame(way));
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "jump");
+  EXPECT_EQ(findings[0].subject, "map -> odom");
+  EXPECT_NE(findings[0].remedy.find("--world-frame odom"), std::string::npos);
+}
+
+TEST_F(RecordingJudgeTest, ManySmallCorrectionsAreToldToo) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> which(-1, 1);
+  double x = 7;
+  Drive("odom", "base_link", Rolls);
+  Drive("map", "odom", [&](int i) { return x += i % 5 == 0 ? 0.004 * which(random) : 0; });
+  const RecordingJudge::Way way = {"base_link", "odom", "map"};
+  EXPECT_EQ(judge_.SmoothFrame(way), "odom");
+  const Findings findings = judge_.Report(way, "odom");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "jump");
+  EXPECT_NEAR(findings[0].size, 0.004, 1e-6);
+}
+
 TEST_F(RecordingJudgeTest, WithoutJumpsTheTopmostFrameIsInertial) {
   Drive("odom", "base_link", Rolls);
   Drive("ship", "odom", [](int) { return 3.0; });

@@ -103,7 +103,7 @@ TEST(VehicleModel, ReadsCollisionGeometryOfTheLinksAskedFor) {
 std::string ProblemsOf(const std::string& content,
                        const std::vector<std::string>& collision_links = {},
                        const PackageFinder& find_package = NoPackages, const VehicleUse& use = {},
-                       std::string* notes = nullptr) {
+                       std::string* notes = nullptr, std::string* warnings = nullptr) {
   const TemporaryFile file("<robot name=\"r\">\n" + content + "</robot>\n");
   Problems problems;
   testing::internal::CaptureStderr();
@@ -117,6 +117,7 @@ std::string ProblemsOf(const std::string& content,
     return text;
   };
   if (notes) *notes = anonymous(vehicle.notes.ToString());
+  if (warnings) *warnings = anonymous(vehicle.warnings.ToString());
   return anonymous(problems.ToString());
 }
 
@@ -249,6 +250,35 @@ TEST(VehicleProblems, TheUsedIsJudged) {
                  "</link>\n",
                  {}, NoPackages, {{"a"}, {}}),
       "FILE:2: link[a].visual.sphere.radius: got '-1', expected a number, none negative");
+}
+
+// urdfdom takes all of these.
+TEST(VehicleProblems, LimitsThatSayNothingAreWarnedOfWhereTheyAreUsed) {
+  const auto warnings = [](const std::string& type, const std::string& limit) {
+    VehicleUse b;
+    b.moving_links = {"b"};
+    std::string found;
+    EXPECT_EQ(ProblemsOf("<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/>\n"
+                         "<joint name=\"j\" type=\"" +
+                             type + "\"><parent link=\"a\"/><child link=\"b\"/>\n" + limit +
+                             "</joint>\n<joint name=\"unused\" type=\"revolute\">"
+                             "<parent link=\"a\"/><child link=\"c\"/></joint>\n",
+                         {}, NoPackages, b, nullptr, &found),
+              "");
+    return found;
+  };
+  EXPECT_CONTAINS(
+      warnings("prismatic", "<limit lower=\"0.1\" upper=\"-0.2\" effort=\"1\" velocity=\"1\"/>"),
+      "FILE:4: joint[j].limit: got lower 0.1 and upper -0.2, expected lower to be no more than "
+      "upper");
+  EXPECT_CONTAINS(warnings("revolute", "<limit lower=\"1\" effort=\"1\" velocity=\"1\"/>"),
+                  "got lower 1 and upper 0");
+  EXPECT_CONTAINS(warnings("revolute", ""), "FILE:3: joint[j].limit: is missing");
+  EXPECT_CONTAINS(warnings("prismatic", ""), "FILE:3: joint[j].limit: is missing");
+  EXPECT_EQ(warnings("continuous", ""), "");
+  EXPECT_EQ(warnings("revolute", "<limit effort=\"1\" velocity=\"1\"/>"), "");
+  EXPECT_EQ(warnings("revolute", "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
+            "");
 }
 
 constexpr const char* kPlaceholders =

@@ -21,4 +21,9 @@ void CheckAgainstVehicle(const CableFile& file, const std::vector<std::string>& 
 void CheckClampDistance(const CableModel& cable, const CableMarks& marks, double distance,
                         Problems* problems);
 
+/// How deep an extension's obstacle holds the clamps at these poses, deeper than the cable is
+/// thick, and what to do: "clamp a is 12.0 mm inside the plane of `contact`, ..."; "" where it does
+/// not.
+std::string ClampsInside(const CableModel& cable, const Pose& X_WA, const Pose& X_WB);
+
 }  // namespace cosserat_cable

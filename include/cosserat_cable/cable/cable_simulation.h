@@ -35,6 +35,13 @@ struct StepOutcome {
   int iterations = 0;   ///< Newton iterations, over all substeps
   int substeps = 1;     ///< more than one where the step had to be retried smaller
   std::string message;  ///< why it failed, where it did
+  std::string remark;   ///< on where it came to rest, where that is not what it may seem
+};
+
+/// What is done about an equilibrium from which the slightest motion makes the cable fall.
+enum class Unstable {
+  kStays,  ///< nothing, and nothing is said
+  kFalls   ///< the cable falls to one side into a stable one, where there is one; a remark says so
 };
 
 /// One place where the cable presses on a body.
@@ -82,7 +89,7 @@ class CableSimulation {
 
   /// Static equilibrium at these poses (reached without twist or loop from the straight cable),
   /// moving as if it had followed clamps and bodies through equilibria so far.
-  StepOutcome Settle(const Surroundings& now);
+  StepOutcome Settle(const Surroundings& now, Unstable unstable = Unstable::kStays);
 
   /// Advances by `dt` [s] to the instant at which `then` holds. A step that does not converge is
   /// taken in parts: between the two instants clamps and bodies go as MotionBetween says, under the

@@ -47,6 +47,10 @@ struct ExtensionLaw {
   /// What acts on the rod from outside, null for nothing; may itself be null.
   std::shared_ptr<const rod::Load> (*load)(const CableExtension& extension,
                                            const CableModel& cable) = nullptr;
+  /// Of an obstacle: how deep the cable's surface is in it where its centreline is at `p_A`, in
+  /// clamp a's frame [m]; negative: clear of it. May be null.
+  double (*depth)(const CableExtension& extension, const CableModel& cable,
+                  const Eigen::Vector3d& p_A) = nullptr;
 };
 
 /// Every one that there is, by name. They are read, written and entered in this order.

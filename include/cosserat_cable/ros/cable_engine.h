@@ -66,10 +66,11 @@ class CableEngine {
               const std::vector<CableModel>& cables, EngineOptions options);
   ~CableEngine();
 
-  /// `publisher`: the node's name.
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
-              const std::string& publisher = "");
-  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "");
+  /// `publisher`: the node's name. `recorded`: the time of recording or arrival [ns]; 0: not known.
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher = "",
+              std::int64_t recorded = 0);
+  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "",
+              std::int64_t recorded = 0);
   /// No more samples will come: Advance then goes up to the last.
   void Finish();
 

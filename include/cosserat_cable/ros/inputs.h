@@ -55,6 +55,9 @@ std::string SharedOptionsText(const EngineOptions& options);
 /// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems);
 
+/// What contradicts itself, of vehicle and recording, besides the survey's findings.
+std::vector<std::string> InputWarnings(const Inputs& inputs);
+
 /// What the user may want to set or draw otherwise, of vehicle and recording.
 std::vector<std::string> Notes(const Inputs& inputs);
 

@@ -22,6 +22,7 @@
 #include "cosserat_cable/vehicle/edge_smoother.h"
 #include "cosserat_cable/vehicle/motion_tree.h"
 #include "cosserat_cable/vehicle/recording_judge.h"
+#include "cosserat_cable/vehicle/stamp_delays.h"
 #include "cosserat_cable/vehicle/vehicle_model.h"
 
 namespace cosserat_cable {
@@ -36,11 +37,21 @@ struct LinkMotionOptions {
   double max_gap = 0.25;  ///< [s], see PoseCurve
   double smooth = 0;      ///< cutoff [Hz], see EdgeSmoother; 0: none
   bool judge = true;      ///< whether the samples are judged, see Findings
+  bool is_node = false;   ///< options are named in messages as the node's parameters
 };
 
 class LinkMotion {
  public:
   enum class Source { kUrdf, kTfStatic, kTf, kJointStates };
+
+  struct Sample {
+    std::int64_t stamp = 0;  ///< [ns]
+    Pose X_PC;
+    std::optional<double> position;  ///< where a joint state says it
+    std::int64_t recorded = 0;       ///< when [ns]; 0: not known
+    int publisher = -1;              ///< see RecordingJudge
+    int overtaken = 0;               ///< by how many later samples with earlier stamps
+  };
 
   /// One edge of the tree, named by its child.
   struct Edge {
@@ -50,11 +61,20 @@ class LinkMotion {
     std::int64_t first = 0, last = 0;   ///< stamps [ns]
     std::int64_t longest_interval = 0;  ///< between two samples [ns]
     std::uint64_t gaps = 0;             ///< intervals longer than max_gap, see GapRule
+    std::int64_t first_gap = 0;         ///< the stamp before it [ns]
+    std::int64_t longest_gap = 0, longest_gap_at = 0;  ///< [ns], and the stamp before it
+    std::int64_t longest_gap_recorded = 0;  ///< the same by times of recording [ns]; 0: not known
     bool moves = false;                 ///< whether any two samples differ
     bool is_followed = false;           ///< whether a link depends on it
     MotionTree::Edge samples_of;        ///< where they are kept, once there are any
 
-    Pose last_pose;
+    Pose last_pose;  ///< or the one pose of a fixed edge
+    std::int64_t last_recorded = 0;
+    double usual_interval = 0;   ///< [ns]
+    std::optional<Sample> held;  ///< after a long interval, until the next one confirms its stamp
+    StampDelays delays;
+    std::int64_t least_delay = 0;  ///< of recording after the stamp [ns], where it is known
+    std::uint64_t bad_stamps = 0;  ///< samples that were left out for it
     GapRule gap_rule;
     RecordingJudge::Edge* judged = nullptr;
     EdgeSmoother* smoother = nullptr;
@@ -64,12 +84,15 @@ class LinkMotion {
   LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
              LinkMotionOptions options);
 
-  /// A sample that is older than its edge's last by more than half a second says that time ran
-  /// backwards: all samples are forgotten, `clear_count` grows, and the sample is the first of the
-  /// new run. Samples that cannot be used are counted in `warnings`. `publisher`: the node's name.
-  void Ingest(const tf2_msgs::TFMessage& message, bool is_static,
-              const std::string& publisher = "");
-  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "");
+  /// Samples of two messages that are older than their edges' last by more than half a second say
+  /// that time ran backwards: all samples are forgotten, `clear_count` grows, and these are the
+  /// first of the new run. One alone has a bad stamp. Samples that cannot be used are counted in
+  /// `warnings`. `publisher`: the node's name. `recorded`: the time of recording, or of arrival
+  /// [ns]; 0: not known.
+  void Ingest(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher = "",
+              std::int64_t recorded = 0);
+  void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "",
+              std::int64_t recorded = 0);
   /// No more samples will come.
   void Finish();
   /// Forgets all samples; the tree's edges stay.
@@ -83,6 +106,15 @@ class LinkMotion {
   /// What the samples so far say that cannot be, of the edges that links depend on. `world`: the
   /// inertial frame that is taken.
   Findings MotionFindings(const std::string& world) const;
+  /// Which edges below `world` were recorded for less time than others, so that the links are known
+  /// together for less. To be asked once all samples are there. `nothing`: set where they are known
+  /// together at one instant at most, though more than that was recorded.
+  Findings CoverageFindings(const std::string& world, bool* nothing) const;
+  /// The latest pose of a frame in one above it, by the last samples of all edges between; nothing
+  /// where one is missing.
+  std::optional<Pose> LatestPose(const std::string& ancestor, const std::string& frame) const;
+  /// The stamp at which the recording begins [ns]; 0: not known.
+  std::int64_t Start() const;
   /// The inertial frame to be taken: world(), or a frame below it where a localisation corrects the
   /// frames above that one, see RecordingJudge.
   std::string SmoothWorld() const;
@@ -129,21 +161,47 @@ class LinkMotion {
   /// A source's name as the user knows it.
   std::string ToString(Source source) const;
   std::string UnstampedText(const Unstamped& unstamped) const;
+  std::string UseRecordTimes() const;
+  std::string NoCommonRoot() const;
+  void BeginMessage(std::int64_t recorded);
   /// A recorded name as the URDF has it.
   std::string Own(const std::string& name) const;
   void AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                 Source source);
   void AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
                  const Pose& X_PC, Source source, const double* position = nullptr);
-  void Judge(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC,
-             const double* position);
+  /// What the next sample says of the edge's sample that waits.
+  void ResolveHeld(Edge* edge, const std::string& child, const Sample& sample);
+  /// Whether a sample that is far behind its edge confirms that time ran backwards.
+  bool RunsBackwards(const std::string& child, const Edge& edge, const Sample& sample);
+  void ForgetEarly(const std::string& child);
+  void CountBadStamp(const std::string& child, Edge* edge, std::int64_t stamp, double late);
+  void CountContradiction(const Edge& edge, const std::string& child, const Pose& X_PC,
+                          Source source);
+  void Take(Edge* edge, const std::string& child, const Sample& sample);
+  void Feed(Edge* edge, const std::string& child, const Sample& sample);
+  void JudgeSaid(Edge* edge, const std::string& child, const Sample& sample);
+  void Judge(Edge* edge, const std::string& child, const Sample& sample);
+  Warnings::Event Event(const std::string& subject, const std::string& detail,
+                        const std::string& remedy, std::int64_t stamp = 0) const;
+  std::string Option(const std::string& name, const std::string& value) const;
+  /// Frames above `world`, and itself.
+  std::set<std::string> Above(const std::string& world) const;
+  /// Of the edges to these children.
+  std::string SubjectOf(const std::vector<std::string>& children) const;
+  /// Of recording after the stamp [ns], over all samples or of the edges' first ones.
+  std::int64_t UsualDelay(bool at_first) const;
+  void AddGapFindings(const std::set<std::string>& above, Findings* findings) const;
+  void AddDriftFindings(const std::set<std::string>& above, Findings* findings) const;
+  void AddClockFindings(const std::set<std::string>& above, Findings* findings) const;
   void Deliver(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC);
   void JudgeRejected(const std::string& parent, const std::string& child, std::int64_t stamp,
                      const Pose& X_PC);
   void SetPublisher(const std::string& name, Source source);
   RecordingJudge::Way WayAboveVehicle() const;
   /// The edge, made where it is new; null where this source does not count for it.
-  Edge* AcceptSource(const std::string& parent, const std::string& child, Source source);
+  Edge* AcceptSource(const std::string& parent, const std::string& child, Source source,
+                     const Pose& X_PC);
   void IngestJoint(const JointModel& joint, double position, std::int64_t stamp);
   const JointModel* JointAbove(const std::string& link) const;
   // The way up from a frame: along edges seen, and along the URDF's joints where none was.
@@ -161,6 +219,16 @@ class LinkMotion {
   std::map<std::string, const JointModel*> joints_;       // by name
   std::vector<std::string> named_;                        // in the last joint state
   std::vector<const JointModel*> named_joints_;           // of these names; null: not in the URDF
+
+  struct Early {
+    std::string child;
+    Sample sample;
+    std::int64_t last = 0;  // the edge's, before it
+  };
+  std::vector<Early> early_;  // far behind their edges; of one message
+  std::uint64_t early_message_ = 0, message_ = 0;
+  std::int64_t recorded_ = 0, message_stamp_ = 0;  // of the message at hand [ns]
+  std::int64_t first_recorded_ = 0, first_stamp_ = 0;
 
   std::map<std::string, Unstamped> unstamped_;  // by child
   std::set<std::string> unknown_joints_;

@@ -36,6 +36,7 @@ struct CableSummary {
   double stiffness_needed =
       0;                      ///< where that was too deep: a contact stiffness that would do [N/m]
   std::string long_elements;  ///< see TooLongElements; empty where they are short enough
+  std::string rest_remark;  ///< on its first equilibrium, see StepOutcome; empty where it is stable
   std::string failure;        ///< empty while all is well
   ClampJudge::Range clamps;   ///< how they moved to one another
 
@@ -55,6 +56,7 @@ struct Summary {
   std::uint64_t gaps = 0;                               ///< of the input
   double smooth = 0;  ///< cutoff of the links' motion [Hz]; 0: none
   std::map<std::string, std::uint64_t> warnings;
+  std::vector<std::string> warning_sentences;  ///< the same, with time, size and remedy
   Findings findings;  ///< what the input says that cannot be
   std::vector<CableSummary> cables;
 

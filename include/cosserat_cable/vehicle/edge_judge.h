@@ -38,6 +38,8 @@ class EdgeJudge {
   bool moves() const;
   /// Whether the motion consists of steps from rest to rest, as a localisation's corrections do.
   bool MovesByJumps() const;
+  /// The largest of these steps. @pre MovesByJumps()
+  Finding Corrections(const std::string& subject, const std::string& topic) const;
   /// What was found so far; `subject`, `topic`: of the findings.
   Findings Report(const std::string& subject, const std::string& topic) const;
 

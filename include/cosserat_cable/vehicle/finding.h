@@ -22,6 +22,7 @@ struct Finding {
   double size = 0;          ///< of the largest one, in `unit`
   double limit = 0;         ///< from which on it is one, in `unit`
   std::string unit;
+  std::int64_t start = 0;  ///< stamp at which the recording begins [ns]; 0: not known
 
   /// "map -> odom (/tf) jumps by up to 100 mm, at 105.000 s: take ...".
   std::string ToString() const;
@@ -29,8 +30,9 @@ struct Finding {
 
 using Findings = std::vector<Finding>;
 
-/// A stamp [ns] as people read it: "1000.005 s".
-std::string StampText(std::int64_t stamp);
+/// A stamp [ns] as people read it: "1000.005 s", and with the recording's begin `start`, unless
+/// that is 0: "1000.005 s (0.005 s after the start)".
+std::string StampText(std::int64_t stamp, std::int64_t start = 0);
 
 /// `format` for one number, as printf has it.
 std::string Printed(const char* format, double value);

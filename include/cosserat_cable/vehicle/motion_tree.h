@@ -44,6 +44,8 @@ class MotionTree {
   /// A timed sample [s] of the edge. False where it was ignored: see PoseCurve::Append; also where
   /// there is no edge.
   bool Append(const Edge& edge, double time, const Pose& X_PC);
+  /// Forgets the edge's samples.
+  void Restart(const Edge& edge);
   bool Append(const std::string& parent, const std::string& child, double time, const Pose& X_PC) {
     return Append(MovingEdge(parent, child), time, X_PC);
   }

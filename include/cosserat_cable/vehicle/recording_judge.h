@@ -45,9 +45,9 @@ class RecordingJudge {
   }
   /// A sample as the links follow it. @pre stamps [ns] of an edge increase
   void AddMotion(Edge* edge, std::int64_t stamp, const Pose& X_PC);
-  /// A transform that is said to be fixed, by `topic`.
+  /// A transform that is said to be fixed, by `topic`. `recorded`: when [ns]; 0: not known.
   void AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
-                const std::string& topic);
+                const std::string& topic, std::int64_t recorded = 0);
   /// Time starts anew; what was found stays.
   void Restart();
 
