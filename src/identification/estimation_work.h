@@ -76,6 +76,8 @@ class EstimationWork {
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
   void ReportChannels();
+  void ReportSampling();
+  void ReportFarFromGiven();
   void ReportOtherMinimum();
   void KeepDefaults(const Determination& determination);
 

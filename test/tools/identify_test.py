@@ -2,6 +2,7 @@
 """cable_identify and cable_simulate on data from a simulation that shares no code with theirs."""
 
 import json
+import math
 import os
 import re
 import subprocess
@@ -68,6 +69,26 @@ class Identify(unittest.TestCase):
             row[index] = repr(change(float(row[index])))
         with open(path, 'w') as file:
             file.writelines(','.join(row) + '\n' for row in [header] + rows)
+
+    def edit(self, change):
+        """Writes measurement.yaml anew after change(description)."""
+        path = self.path('set', 'measurement.yaml')
+        with open(path) as file:
+            description = yaml.safe_load(file)
+        change(description)
+        with open(path, 'w') as file:
+            yaml.safe_dump(description, file)
+        return description
+
+    def change_table(self, name, change):
+        """Writes a file anew with change(rows), rows of numbers below its header."""
+        path = self.path('set', name)
+        with open(path) as file:
+            header, *rows = [line.strip().split(',') for line in file]
+        rows = change([[float(value) for value in row] for row in rows])
+        with open(path, 'w') as file:
+            file.write(','.join(header) + '\n')
+            file.writelines(','.join(map(repr, row)) + '\n' for row in rows)
 
     def check_clean(self, answer):
         """No slip is told of a good set, and no channel is more than noise."""
@@ -165,6 +186,42 @@ class Identify(unittest.TestCase):
         self.check(answer, truth, ('EI', 'eta_EI'))
         for channel in answer['experiments'][0]['channels']:
             self.assertLess(abs(channel['misfit'] - 1), NOISE, channel)
+
+    def test_a_slow_record_with_a_nominal_stiffness_far_off(self):
+        # At 2.6 samples in a period a cable of 2.6 times this EI shows nearly the same.
+        for factor in (0.4, 2.5):
+            with self.subTest(factor=factor):
+                truth = self.generate('wire')
+                description = self.edit(
+                    lambda set: set['cable'].update(EI=factor * truth['EI']))
+                cable = description['cable']
+                period = (2 * math.pi * (cable['length'] / 1.8751) ** 2 *
+                          math.sqrt(cable['mass_per_length'] / truth['EI']))
+
+                def thinned(rows, interval=period / 2.6):
+                    end, kept = rows[-1][0], []
+                    while len(kept) * interval < end:
+                        kept.append(min(rows, key=lambda row: abs(row[0] - len(kept) * interval)))
+                    return kept
+                for experiment in description['experiments']:
+                    self.change_table(experiment['record'], thinned)
+                answer, _ = self.identify('--no-report', '--no-profiles')
+                self.check(answer, truth, ('EI',))
+                self.assertLess(abs(answer['parameters']['EI'][0] / truth['EI'] - 1), WIRE_EI)
+                warnings = '\n'.join(answer['warnings'])
+                self.assertIn('(aliasing)', warnings)
+                self.assertRegex(warnings, r'\[EI\] is found (0\.4|2\.5)\d* times as large')
+                self.assertEqual(answer['slips'], [])
+
+    def test_a_stiffness_of_four_times_less_or_more_is_found(self):
+        for rig, factor in (('arch', 3.8), ('drive', 0.26), ('ringdowns', 3.8)):
+            with self.subTest(rig=rig):
+                truth = self.generate(rig, '--seed', 4)
+                self.edit(lambda set: set['cable'].update(EI=factor * truth['EI'],
+                                                          GJ=factor * truth['GJ']))
+                answer, _ = self.identify('--no-report', '--no-profiles', '--no-direct')
+                self.check(answer, truth, ('EI',))
+                self.check_clean(answer)
 
     def test_slips_of_channels_are_named(self):
         self.generate('wire', '--snr', 40)
