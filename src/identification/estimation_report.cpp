@@ -136,6 +136,11 @@ void EstimationWork::ReportOtherMinimum() {
       "another length");
 }
 
+bool EstimationWork::NothingMoves() const {
+  return std::all_of(experiments().begin(), experiments().end(),
+                     [](const Experiment& experiment) { return experiment.quasi_static(); });
+}
+
 /// Records that hardly resolve a swing: the minimum may be that of another cable.
 void EstimationWork::ReportSampling() {
   std::string names, other;
@@ -208,7 +213,10 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
     estimate.value = fitted[i];
     estimate.determined = determination.reasons[i].empty();
     estimate.reason = determination.reasons[i];
-    if (!estimate.determined && ShownByNone(i))
+    if (!estimate.determined && estimate.unknown.damping && NothingMoves())
+      estimate.reason = "no record moves fast enough to show [" + estimate.unknown.name +
+                        "]: all are quasi-static, one equilibrium after the other";
+    else if (!estimate.determined && ShownByNone(i))
       estimate.reason = "every record that could show [" + estimate.unknown.name +
                         "] was left out: see the warnings";
     if (estimate.determined) {
