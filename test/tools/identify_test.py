@@ -13,6 +13,7 @@ import yaml
 
 # The loss at the disc: D_E in the source paper's formulas, and in truth.json.
 END_DAMPING = 'extensions.clamp_damping.b.torsion'
+PLAIN = ('EI', 'eta_EI', 'GJ', 'eta_GJ')
 
 BUILD = os.environ['COSSERAT_CABLE_TOOLS_DIR']
 PROGRAMS = os.environ['COSSERAT_CABLE_PROGRAMS_DIR']
@@ -336,6 +337,23 @@ class Identify(unittest.TestCase):
         slips, answer = self.slips_of()
         self.assertEqual([kind for _, _, kind in slips], ['parameter'], answer['slips'])
         self.assertAlmostEqual(answer['slips'][0]['factor'], 1 / 2.5, delta=0.01)
+
+    def test_an_extension_that_is_not_there_can_be_uncertain(self):
+        for effect in ('external_damping', 'rest_curvature', 'maxwell'):
+            with self.subTest(effect=effect):
+                truth = self.generate('effects', '--seed', 3, '--effect', effect)
+                with open(self.path('set', 'truth.json')) as file:
+                    truth.update(json.load(file)['effect_parameters'])
+                names = [name for name in truth if name.startswith('extensions.' + effect)]
+                self.edit(lambda set: set['cable'].update(uncertain=[*PLAIN, *names]))
+                answer, _ = self.identify('--no-report', '--no-profiles', '--no-slips',
+                                          '--no-direct')
+                self.check(answer, truth, ['EI'] + names)
+        self.edit(lambda set: set['cable'].update(uncertain=['extensions.added_mass.mass']))
+        code, _, errors = run(os.path.join(PROGRAMS, 'cable_identify'), self.path('set'),
+                              '--output', self.path('refused'))
+        self.assertEqual(code, 2)
+        self.assertRegex(errors, r'such as `extensions: \{added_mass: \{s: [\d.]+, mass: [\d.e-]+\}')
 
     def test_damping_does_not_show_in_quasi_static_records(self):
         self.generate('bend', '--seed', 1)
