@@ -47,8 +47,10 @@ constexpr std::size_t kMostRecords = 8;
 // Of what is left, a form must leave less than this part to be simulated more finely; and where
 // something was found, no more of what acts on the cable is tried after so long [s].
 constexpr double kPromises = 0.1, kEnoughTime = 10;
-// Complexities: of one slip, and of more than two, which explain anything.
-constexpr double kSimple = 1.5, kTooComplex = 6;
+// Complexities: of one slip, of more than two, and of so many that they explain anything.
+constexpr double kSimple = 1.5, kSeveral = 2.8, kTooComplex = 6;
+// Of what is left of a record without a slip, what is little.
+constexpr double kLittle = 0.01;
 // Of the noise, squared: nothing is left but noise.
 constexpr double kNoise = 1.6;
 // Of a record: with more, a channel that fits is not tried beside the others.
@@ -279,7 +281,7 @@ class SlipSearch {
   bool IsAsGood(const FormFit& simple, const FormFit& rich, Eigen::Index identity) const;
   bool OfUnit(std::size_t channel, double factor) const;
   double ComplexityOf(const RecordForm& form) const;
-  bool Explains(const FormFit& fit, double least) const;
+  bool Explains(const FormFit& fit, double least, bool simplest = true) const;
   void SnapToUnits(RecordForm* form) const;
   std::vector<Found> OfChannels(const FormFit& looked, const FormFit& plain, double least) const;
   std::vector<Found> OfInputs(double least, const std::vector<Found>& beside) const;
@@ -482,13 +484,17 @@ double SlipSearch::ComplexityOf(const RecordForm& form) const {
   return sum + (elsewhere > 0 ? 1.0 : 0.0);
 }
 
-bool SlipSearch::Explains(const FormFit& fit, double least) const {
+bool SlipSearch::Explains(const FormFit& fit, double least, bool simplest) const {
   for (const ChannelForm& channel : fit.form.channels)
     if (channel.free_factor &&
         !(std::abs(channel.factor) < kLargestGain && std::abs(channel.factor) > 1 / kLargestGain))
       return false;
-  return fit.ok && fit.mean() <= (1 - kExplains) * (least - 1) + 1 &&
-         fit.left.maxCoeff() <= kFaithful;
+  // What a slip leaves is near the noise, or little beside what was there; several leave noise.
+  const double most = !simplest ? kFaithful
+                      : ComplexityOf(fit.form) > kSeveral
+                          ? kNoise
+                          : std::clamp(kLittle * least, kFarAbove, kFaithful);
+  return fit.ok && fit.mean() <= (1 - kExplains) * (least - 1) + 1 && fit.left.maxCoeff() <= most;
 }
 
 /// A factor near that of a unit is that unit's.
@@ -553,7 +559,7 @@ std::vector<Found> SlipSearch::OfChannels(const FormFit& looked, const FormFit& 
     FormFit whole = WholeOf(model_, part, least);
     if (Explains(whole, least) && freedom(form) == 1 && !(whole.left.maxCoeff() > kNoise))
       enough = freedom(form);
-    if (!Explains(whole, least)) continue;
+    if (!Explains(whole, least, false)) continue;
     whole = Simplest(whole);
     const double complexity = ComplexityOf(whole.form) + FarFromSet(model_, whole);
     if (Explains(whole, least) && ComplexityOf(whole.form) > 0 && complexity < kTooComplex)

@@ -267,9 +267,11 @@ std::optional<double> SlipModel::ValueOf(const std::string& name, const FormFit&
   return std::nullopt;
 }
 
-/// The noise of a channel in another unit goes with it, whatever the set says of it.
+/// What the set says of the noise may be in SI units where the channel is in others.
 double SlipModel::LevelOf(Eigen::Index channel, const ChannelForm& form) const {
-  return level_[channel] * (form.free_factor ? 1.0 : std::max(1.0, std::abs(form.factor)));
+  const bool given = experiment_.channels[static_cast<std::size_t>(channel)].sigma.has_value();
+  return level_[channel] *
+         (given && !form.free_factor ? std::max(1.0, std::abs(form.factor)) : 1.0);
 }
 
 FormFit SlipModel::Measure(const Eigen::VectorXd& at, const Eigen::MatrixXd& simulated,
