@@ -189,8 +189,22 @@ bool HasEntry(const CableModel& model, const std::string& path) {
                      });
 }
 
+/// Whether a search can make the entry of this number by itself, and a cable that may have it.
+bool CanBeMade(const std::string& path, const Parameter& parameter, const CableKeys& keys) {
+  std::vector<std::string> named;
+  for (const UncertainKey& one : *keys.uncertain.value) named.push_back(one.name);
+  if (!parameter.neutral && !CanBegin(path, named)) return false;
+  CableKeys made = keys;
+  const std::vector<double*> numbers = MakeExtensionNumbers(path, &made);
+  for (double* number : numbers) *number = TypicalSize(path, keys);
+  Problems found;
+  if (!parameter.neutral) CheckExtensions(made, &found);
+  return !numbers.empty() && found.empty();
+}
+
 // An extension that the cable does not have may be named where it has no effect at some value: that
-// is where it starts from.
+// is where it starts from; or where all that it must have is named with it, and a size is enough to
+// begin with.
 void FillUncertain(const CableKeys& keys, CableModel* model, Problems* problems) {
   if (!keys.uncertain.value) return;
   const std::vector<std::string> numbers = ExtensionPaths(model->extensions);
@@ -199,15 +213,14 @@ void FillUncertain(const CableKeys& keys, CableModel* model, Problems* problems)
     model->uncertain.push_back(key.name);
     if (key.name.rfind(ExtensionPrefix(), 0) != 0) continue;
     if (std::find(numbers.begin(), numbers.end(), key.name) != numbers.end()) continue;
-    CableKeys made = keys;
     const std::optional<Parameter> known = FindParameter(key.name);
-    if (known && known->neutral && !HasEntry(*model, key.name) &&
-        !MakeExtensionNumbers(key.name, &made).empty())
-      continue;
+    if (known && !HasEntry(*model, key.name) && CanBeMade(key.name, *known, keys)) continue;
     if (known && !HasEntry(*model, key.name)) {
       problems->Add(key.mark, "got '" + key.name +
                                   "' of an extension that the cable does not have, expected it "
-                                  "under `extensions`: its numbers are where the search begins");
+                                  "under `extensions`: its numbers are where the search begins, "
+                                  "such as `extensions: {" +
+                                  TypicalEntry(key.name, keys) + "}`");
       continue;
     }
     const std::string nearest = NearestWord(key.name, numbers);

@@ -1,6 +1,7 @@
 // The numbers of extensions by their paths.
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "cosserat_cable/cable/extension_law.h"
 #include "extensions.h"
@@ -73,7 +74,56 @@ void FillIn(const Place& place, const CableKeys& keys, std::map<std::string, dou
     }
 }
 
+/// Fields without which an entry with this number is none: required ones, and those of its group.
+std::vector<const ExtensionField*> Needed(const Place& place) {
+  const std::size_t dot = place.field->path.find('.');
+  const std::string group = dot == std::string::npos ? "" : place.field->path.substr(0, dot + 1);
+  std::vector<const ExtensionField*> needed;
+  for (const ExtensionField& field : place.law->fields)
+    if (field.need == ExtensionField::Need::kRequired ||
+        (field.need == ExtensionField::Need::kInGroup && !group.empty() &&
+         field.path.rfind(group, 0) == 0))
+      needed.push_back(&field);
+  return needed;
+}
+
 }  // namespace
+
+bool CanBegin(const std::string& path, const std::vector<std::string>& paths) {
+  const std::optional<Place> place = Parse(path);
+  if (!place || place->part > 0) return false;
+  for (const ExtensionField* field : Needed(*place)) {
+    if (field->unit == "m" || field->unit == "rad") return false;
+    const std::vector<std::string> names = PathsByName(*field);
+    const bool named = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+      const std::string whole = PlaceOf(*place->law, place->part) + name;
+      return std::find(paths.begin(), paths.end(), whole) != paths.end();
+    });
+    if (!named) return false;
+  }
+  return true;
+}
+
+std::string TypicalEntry(const std::string& path, const CableKeys& keys) {
+  constexpr double kRounded = 1e3;  // of the leading digit
+  const std::optional<Place> place = Parse(path);
+  if (!place) return "";
+  CableKeys made;
+  std::vector<const ExtensionField*> fields = Needed(*place);
+  if (std::find(fields.begin(), fields.end(), place->field) == fields.end())
+    fields.push_back(place->field);
+  for (const ExtensionField* field : fields) {
+    const std::string whole = PlaceOf(*place->law, 0) + field->path;
+    // Somewhere in the middle of the cable.
+    double size =
+        field->path == "s" ? 0.5 * keys.length.value.value_or(0.2) : TypicalSize(whole, keys);
+    const double unit = size > 0 ? std::pow(10.0, std::floor(std::log10(size))) / kRounded : 1.0;
+    size = std::round(size / unit) * unit;
+    for (double* number : MakeExtensionNumbers(whole, &made)) *number = size;
+  }
+  const CableExtension& extension = made.extensions.value->front().extension;
+  return extension.name + ": " + WriteExtension(extension);
+}
 
 const std::string& ExtensionPrefix() {
   static const std::string prefix = "extensions.";

@@ -37,6 +37,14 @@ std::vector<double*> ExtensionNumbers(const std::string& path, CableKeys* keys);
 /// The same; what is not there is made, see SetParameter.
 std::vector<double*> MakeExtensionNumbers(const std::string& path, CableKeys* keys);
 
+/// Whether a search can begin with an entry that is not there: its law has nothing that must be
+/// given but what is among these paths, and nothing of that says where something is (a length, an
+/// angle).
+bool CanBegin(const std::string& path, const std::vector<std::string>& paths);
+/// An entry with this number as YAML, all that it must have of a typical size for this cable:
+/// "added_mass: {s: 0.1, mass: 0.002}". Empty where there is no such number.
+std::string TypicalEntry(const std::string& path, const CableKeys& keys);
+
 /// @throws std::invalid_argument for an extension that there is not
 void EnterExtensions(const CableModel& cable, rod::RodModel* rod);
 

@@ -54,7 +54,11 @@ std::string DamageOf(const Record& record, const Eigen::MatrixXd& usable) {
 }
 
 double SlowestPeriod(const Experiment& experiment, const CableModel& cable) {
-  if (experiment.quasi_static() || experiment.a.motion || experiment.b.motion) return 0;
+  return experiment.a.motion || experiment.b.motion ? 0 : RigPeriod(experiment, cable);
+}
+
+double RigPeriod(const Experiment& experiment, const CableModel& cable) {
+  if (experiment.quasi_static()) return 0;
   const double L = cable.length;
   if (experiment.b.kind == EndCondition::Kind::kDisc) {
     const double J = experiment.b.disc.inertia + cable.rhoJ() * L / 3;

@@ -207,8 +207,14 @@ void Unknowns::AddCable(const std::string& name, Problems* problems) {
   // What is not there starts where it has no effect, unless it can only go one way from there.
   const bool from_neutral = neutral && std::isfinite(*neutral) &&
                             (parameter->sign == ParameterSign::kSigned || *neutral != 0);
+  // So does what may go either way from nothing, of an extension that is not there at all.
+  const bool from_zero = !from_neutral && !given && IsOfEntry(name) && !IsFault(name) &&
+                         parameter->sign == ParameterSign::kSigned;
   unknown.start_known = given.has_value();
-  unknown.start = given && std::isfinite(*given) ? *given : from_neutral ? *neutral : typical;
+  unknown.start = given && std::isfinite(*given) ? *given
+                  : from_neutral                 ? *neutral
+                  : from_zero                    ? 0.0
+                                                 : typical;
   unknown.scale = from_neutral ? std::max(std::abs(unknown.start - *neutral), typical)
                                : std::max(std::abs(unknown.start), unknown.damping ? typical : 0.0);
   if (parameter->sign != ParameterSign::kPositive && !(unknown.scale > 0)) unknown.scale = typical;

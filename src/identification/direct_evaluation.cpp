@@ -22,6 +22,10 @@ constexpr double kFirstModeShows = 0.05;
 constexpr double kAlong = 0.9;
 // Of gravity, across the cable, from which on there is a plane in which it sags.
 constexpr double kSags = 0.05;
+// A fit that is farther from the direct value disagrees with it: half widths of both intervals, and
+// of the value, beside the biases that are known of the rig. Of those, what is no more than an
+// order of magnitude counts so many times, and the others are right within this part of themselves.
+constexpr double kHalfWidths = 3, kOfValue = 0.1, kOfOrder = 3, kOfBias = 0.5;
 // Relative difference within which specimens have one length.
 constexpr double kSameLength = 1e-3;
 
@@ -294,7 +298,47 @@ void AddCritical(const MeasurementSet& set, DirectEvaluation* out) {
   if (GA) out->critical["eta_GA"] = 2 * std::sqrt(rhoA * gyration * *GA);
 }
 
+/// Relative: by how much a direct value is too high, and how well that is known.
+struct KnownBias {
+  double shift = 0, doubt = 0;
+};
+
+KnownBias BiasOf(const std::vector<DirectRingDown>& rings, const std::string& name) {
+  KnownBias mean;
+  const auto n = static_cast<double>(rings.size());
+  for (const DirectRingDown& ring : rings)
+    for (const DirectBias& bias : ring.biases) {
+      if (bias.of != name) continue;
+      if (!bias.order_only) mean.shift += bias.relative / n;
+      mean.doubt += std::abs(bias.relative) * (bias.order_only ? kOfOrder : kOfBias) / n;
+    }
+  return mean;
+}
+
 }  // namespace
+
+std::string DisagreementOf(const DirectEvaluation& evaluation, const std::string& name, double low,
+                           double high) {
+  const auto found = evaluation.values.find(name);
+  const std::vector<DirectRingDown> rings =
+      Used(name == "GJ" ? evaluation.torsion : evaluation.bending);
+  if (found == evaluation.values.end() || (name != "EI" && name != "GJ") || rings.empty())
+    return "";
+  const DirectValue& direct = found->second;
+  const KnownBias bias = BiasOf(rings, name);
+  if (!(direct.value > 0) || !(1 + bias.shift > 0)) return "";
+  const double value = direct.value / (1 + bias.shift), fit = 0.5 * (low + high);
+  const double widths = 0.5 * (direct.high - direct.low) + 0.5 * (high - low);
+  if (std::abs(value - fit) <= kHalfWidths * widths + (kOfValue + bias.doubt) * value) return "";
+  std::string records;
+  for (const DirectRingDown& ring : rings)
+    if (records.find(ring.experiment) == std::string::npos)
+      records += (records.empty() ? "" : ", ") + ring.experiment;
+  return "the frequency alone of " + records + " makes [" + name + "] " + FormatRounded(value, 4) +
+         " N m^2 (without the biases that are known of the rig), the fit " + FormatRounded(fit, 4) +
+         ": they differ by far more than both intervals. One of them has taken another swing for "
+         "that of the record: look at the report, and begin nearer to the right one";
+}
 
 DirectEvaluation EvaluateDirectly(const MeasurementSet& set) {
   // Each by itself, side by side; put together in the order of the set.

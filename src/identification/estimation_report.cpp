@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/fit/damage.h"
 #include "cosserat_cable/input/number_text.h"
 #include "estimation_remarks.h"
 #include "estimation_work.h"
@@ -14,6 +15,13 @@ namespace {
 constexpr double kAsWell = 2;
 // The same of another minimum: more than chance makes of four parameters (99 %), or this part.
 constexpr double kChanceOfMinimum = 13.3 / 2, kPartOfCost = 0.05;
+// Of the slowest swing: with fewer samples, swings of other frequencies show nearly the same ones.
+constexpr double kFewOfPeriod = 5;
+// Aliases whose frequency is off by more than this factor are cables that nobody takes for this
+// one.
+constexpr double kFarAlias = 2;
+// A stiffness that is found this factor from what the set gives, either way, is told.
+constexpr double kFarFromGiven = 2.0;
 
 }  // namespace
 
@@ -127,6 +135,62 @@ void EstimationWork::ReportOtherMinimum() {
       "another length");
 }
 
+bool EstimationWork::NothingMoves() const {
+  return std::all_of(experiments().begin(), experiments().end(),
+                     [](const Experiment& experiment) { return experiment.quasi_static(); });
+}
+
+/// Records that hardly resolve a swing: the minimum may be that of another cable.
+void EstimationWork::ReportSampling() {
+  std::string names, other;
+  double fewest = kFewOfPeriod, period = 0;
+  for (std::size_t e = 0; e < experiments().size(); ++e) {
+    const Experiment& experiment = experiments()[e];
+    const std::vector<double>& t = experiment.record.t;
+    Problems problems;
+    const Specimen specimen =
+        unknowns_.MakeSpecimen(static_cast<int>(e), optimum_.values, &problems);
+    if (experiment.quasi_static() || model_.IsLeftOut(static_cast<int>(e)) || !problems.empty() ||
+        t.size() < 2)
+      continue;
+    const double samples = RigPeriod(experiment, specimen.cable) / MedianInterval(t);
+    if (!(samples < kFewOfPeriod)) continue;
+    names += (names.empty() ? "" : ", ") + experiment.name;
+    if (!(samples < fewest)) continue;
+    fewest = samples;
+    period = samples * MedianInterval(t);
+    // A frequency f shows the samples of 1/interval - f, too.
+    const double alias = std::abs(samples - 1);
+    other = alias < kFarAlias && alias > 1 / kFarAlias
+                ? ", here one with " + FormatRounded(alias * alias, 2) + " times this [" +
+                      (experiment.b.kind == EndCondition::Kind::kDisc ? "GJ" : "EI") + "]"
+                : "";
+  }
+  if (names.empty()) return;
+  estimation_.warnings.push_back(
+      names + ": got " + FormatRounded(fewest, 2) + " samples in a period of the slowest swing, " +
+      "some " + FormatRounded(period, 2) + " s, expected at least " + FormatRounded(kFewOfPeriod) +
+      ": a cable that swings at another frequency shows nearly the same (aliasing)" + other +
+      ". Record it faster, or trust the result only as far as the stiffness was known before");
+}
+
+/// A stiffness far from what the set gives: one of the two may be of another cable, or the set has
+/// a length, a mass or a force in another unit.
+void EstimationWork::ReportFarFromGiven() {
+  for (const ParameterEstimate& one : estimation_.parameters) {
+    const Unknown& u = one.unknown;
+    const bool stiffness = u.name == "EI" || u.name == "EI1" || u.name == "EI2" || u.name == "GJ";
+    if (!one.determined || u.kind != Unknown::Kind::kCable || !stiffness || !u.start_known ||
+        !(u.start > 0))
+      continue;
+    if (one.low < kFarFromGiven * u.start && one.high > u.start / kFarFromGiven) continue;
+    estimation_.warnings.push_back(
+        "[" + u.name + "] is found " + FormatRounded(one.value / u.start, 3) +
+        " times as large as the set gives it (" + FormatRounded(u.start) + " " + u.unit +
+        "): either that is far off, or a length, mass or force of the set is");
+  }
+}
+
 void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
   estimation_.scatter = scatter;
   const Information information = InformationOf(model_, optimum_.jacobian, colours_);
@@ -148,7 +212,10 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
     estimate.value = fitted[i];
     estimate.determined = determination.reasons[i].empty();
     estimate.reason = determination.reasons[i];
-    if (!estimate.determined && ShownByNone(i))
+    if (!estimate.determined && estimate.unknown.damping && NothingMoves())
+      estimate.reason = "no record moves fast enough to show [" + estimate.unknown.name +
+                        "]: all are quasi-static, one equilibrium after the other";
+    else if (!estimate.determined && ShownByNone(i))
       estimate.reason = "every record that could show [" + estimate.unknown.name +
                         "] was left out: see the warnings";
     if (estimate.determined) {
@@ -187,6 +254,8 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
         " records that show it by more than their noise: standard deviation " +
         FormatRounded(one.sd) + " " + UnitOf(one.name) + "; the intervals count it");
   ReportChannels();
+  ReportSampling();
+  ReportFarFromGiven();
   if (!hurried_) ReportOtherMinimum();
   estimation_.converged = end_.empty();
   if (!end_.empty())

@@ -76,6 +76,9 @@ class EstimationWork {
   double QuantileOf(int unknown, const Determination& determination,
                     const Information& information) const;
   void ReportChannels();
+  bool NothingMoves() const;
+  void ReportSampling();
+  void ReportFarFromGiven();
   void ReportOtherMinimum();
   void KeepDefaults(const Determination& determination);
 

@@ -71,6 +71,11 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
     return estimation.interrupted ? kExitInterrupted : kExitFailed;
   }
   for (const Problem& warning : warnings.all()) estimation.warnings.push_back(warning.ToString());
+  for (const ParameterEstimate& one : estimation.parameters) {
+    if (!options.direct || !one.determined) continue;
+    const std::string text = DisagreementOf(direct, one.unknown.name, one.low, one.high);
+    if (!text.empty()) estimation.warnings.push_back(text);
+  }
 
   nlohmann::json answer = AnswerJson(set, estimation);
   if (options.direct) answer["direct"] = ToJson(direct);

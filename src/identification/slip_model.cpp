@@ -19,9 +19,12 @@ constexpr double kFirstPeriods = 1.2, kSecondPeriods = 4, kFirstPart = 0.06, kSe
 constexpr Eigen::Index kFewestSamples = 40;
 // How far a camera may have begun after the release: periods of the slowest swing.
 constexpr double kLatePeriods = 2;
-// Points of the search, and factors within which they lie around the start.
-constexpr int kPoints = 24, kBest = 2;
-constexpr double kStiffnessSpread = 1.6, kDampingSpread = 6.0;
+// Points of the search, and factors within which they lie around the start: what a set says of a
+// stiffness may be far off.
+constexpr int kPoints = 36, kPointsAtRest = 8, kBest = 3;
+constexpr double kStiffnessSpread = 4.0, kDampingSpread = 6.0;
+// No clock is off by more, relative.
+constexpr double kMostOfRate = 0.03;
 constexpr std::uint32_t kSeed = 20150113;
 constexpr double kDifference = 1e-3;  // of a parameter's logarithm
 constexpr double kLongestStep = 0.4;  // likewise
@@ -57,7 +60,8 @@ SlipModel::~SlipModel() = default;
 
 SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::VectorXd& level,
                      const Eigen::MatrixXd& usable,
-                     const std::vector<std::vector<std::pair<std::string, double>>>& points)
+                     const std::vector<std::vector<std::pair<std::string, double>>>& points,
+                     const std::function<bool()>& stop)
     : experiment_(set.experiments[static_cast<std::size_t>(experiment)]),
       level_(level),
       usable_(usable) {
@@ -87,6 +91,11 @@ SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::Vec
       axes_.back().push_back(column_of(other));
     }
   }
+  shown_level_ = Eigen::VectorXd::Constant(static_cast<Eigen::Index>(shown.channels.size()),
+                                           std::numeric_limits<double>::max());
+  for (std::size_t c = 0; c < axes_.size(); ++c)
+    for (const int column : axes_[c])
+      shown_level_[column] = std::min(shown_level_[column], level_[static_cast<Eigen::Index>(c)]);
   UnknownOptions options;
   Problems problems;
   const Specimen specimen =
@@ -112,11 +121,21 @@ SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::Vec
     for (int i = 0; i < count; ++i) grid_.push_back(first + (last - first) * i / (count - 1));
   }
   shown.record.t = grid_;
-  shown.record.values = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(grid_.size()),
-                                              static_cast<Eigen::Index>(shown.channels.size()));
+  // What the record shows there says how fine the steps have to be.
+  shown.record.values.resize(static_cast<Eigen::Index>(grid_.size()),
+                             static_cast<Eigen::Index>(shown.channels.size()));
+  for (std::size_t c = 0; c < axes_.size(); ++c)
+    for (std::size_t i = 0; i < grid_.size(); ++i) {
+      const auto after = std::upper_bound(t.begin(), t.end(), grid_[i]) - t.begin();
+      const double value = experiment_.record.values(std::max<Eigen::Index>(after - 1, 0),
+                                                     static_cast<Eigen::Index>(c));
+      for (const int column : axes_[c])
+        shown.record.values(static_cast<Eigen::Index>(i), column) = value;
+    }
   unknowns_ = std::make_unique<Unknowns>(one, options, &problems);
   if (!problems.empty()) return;
   model_ = std::make_unique<RecordModel>(*unknowns_);
+  model_->SetStop(stop);
   for (int i = 0; i < unknowns_->size(); ++i)
     if (unknowns_->all()[static_cast<std::size_t>(i)].kind == Unknown::Kind::kCable &&
         unknowns_->Concerns(i, 0))
@@ -153,18 +172,23 @@ SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::Vec
       if (const int i = unknowns_->Find(name); i >= 0 && std::isfinite(value)) values[i] = value;
     points_.push_back(logarithms(values));
   }
+  // A Latin hypercube: every unknown takes each of its levels once, the first in order.
   std::mt19937 random(kSeed);
-  for (int p = 0; p < kPoints; ++p) {
-    Eigen::VectorXd at = points_.front();
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
-      const double spread = u.damping && !u.start_known ? kDampingSpread : kStiffnessSpread;
-      // In (-1, 1), the same with every library. The first unknown takes its levels in order.
-      const double level =
-          k == 0 ? 2 * (p + 0.5) / kPoints - 1 : static_cast<double>(random()) / 2147483648.0 - 1;
-      at[static_cast<Eigen::Index>(k)] += level * std::log(spread);
-    }
-    points_.push_back(at);
+  const std::size_t given = points_.size();
+  // No swing is taken for another one where nothing swings.
+  const std::size_t count = experiment_.quasi_static() ? kPointsAtRest : kPoints;
+  points_.resize(given + count, points_.front());
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
+    const double spread = u.damping && !u.start_known ? kDampingSpread : kStiffnessSpread;
+    std::vector<std::size_t> order(count);
+    for (std::size_t p = 0; p < count; ++p) order[p] = p;
+    for (std::size_t p = count - 1; p > 0 && k > 0; --p)
+      std::swap(order[p], order[random() % static_cast<std::uint32_t>(p + 1)]);
+    for (std::size_t p = 0; p < count; ++p)
+      points_[given + p][static_cast<Eigen::Index>(k)] +=
+          (2 * (static_cast<double>(order[p]) + 0.5) / static_cast<double>(count) - 1) *
+          std::log(spread);
   }
   looked_ = Simulate(points_, first_.until);
   ok_ = std::any_of(looked_.begin(), looked_.end(),
@@ -189,18 +213,26 @@ RecordForm SlipModel::Plain() const {
   return form;
 }
 
+Eigen::VectorXd SlipModel::AllOf(const Eigen::VectorXd& at) const {
+  Eigen::VectorXd all = unknowns_->StartValues();
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
+    all[free_[k]] = std::clamp(std::exp(at[static_cast<Eigen::Index>(k)]), u.lower, u.upper);
+  }
+  return all;
+}
+
+bool SlipModel::Refine(const FormFit& fit) const {
+  if (!fit.ok) return false;
+  model_->Refine(AllOf(fit.at), {shown_level_});
+  return !model_->Stopping();
+}
+
 /// Empty where a simulation fails.
 std::vector<Eigen::MatrixXd> SlipModel::Simulate(const std::vector<Eigen::VectorXd>& at,
                                                  double until) const {
   std::vector<Eigen::VectorXd> values;
-  for (const Eigen::VectorXd& one : at) {
-    Eigen::VectorXd all = unknowns_->StartValues();
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
-      all[free_[k]] = std::clamp(std::exp(one[static_cast<Eigen::Index>(k)]), u.lower, u.upper);
-    }
-    values.push_back(all);
-  }
+  for (const Eigen::VectorXd& one : at) values.push_back(AllOf(one));
   std::vector<Eigen::MatrixXd> records;
   for (RecordModel::Simulated& one : model_->Simulate(values, {std::min(until, grid_.back())}))
     records.push_back(one.ok ? std::move(one.records.front()) : Eigen::MatrixXd());
@@ -217,7 +249,8 @@ Eigen::MatrixXd SlipModel::Predict(const Eigen::MatrixXd& simulated, const Recor
     const double interval = grid_[1] - grid_[0];
     Eigen::RowVectorXd row(simulated.cols());
     for (std::size_t i = 0; i < t.size(); ++i) {
-      Interpolate(simulated, (t[i] - form.delay - grid_.front()) / interval, row);
+      const double since = (t[i] - form.delay - grid_.front()) / (1 + form.rate);
+      Interpolate(simulated, since / interval, row);
       all.row(static_cast<Eigen::Index>(i)) = row;
     }
   }
@@ -225,6 +258,20 @@ Eigen::MatrixXd SlipModel::Predict(const Eigen::MatrixXd& simulated, const Recor
   for (std::size_t c = 0; c < form.channels.size(); ++c)
     shown.col(static_cast<Eigen::Index>(c)) = all.col(form.channels[c].shows);
   return shown;
+}
+
+std::optional<double> SlipModel::ValueOf(const std::string& name, const FormFit& fit) const {
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    if (unknowns_->all()[static_cast<std::size_t>(free_[k])].name == name)
+      return std::exp(fit.at[static_cast<Eigen::Index>(k)]);
+  return std::nullopt;
+}
+
+/// What the set says of the noise may be in SI units where the channel is in others.
+double SlipModel::LevelOf(Eigen::Index channel, const ChannelForm& form) const {
+  const bool given = experiment_.channels[static_cast<std::size_t>(channel)].sigma.has_value();
+  return level_[channel] *
+         (given && !form.free_factor ? std::max(1.0, std::abs(form.factor)) : 1.0);
 }
 
 FormFit SlipModel::Measure(const Eigen::VectorXd& at, const Eigen::MatrixXd& simulated,
@@ -250,7 +297,8 @@ FormFit SlipModel::Measure(const Eigen::VectorXd& at, const Eigen::MatrixXd& sim
     }
     if (channel.free_constant) channel.constant = weight.dot(y - channel.factor * x) / n;
     const Eigen::VectorXd residual = (y - channel.factor * x).array() - channel.constant;
-    fit.left[c] = residual.cwiseProduct(weight).squaredNorm() / n / std::pow(level_[c], 2);
+    fit.left[c] =
+        residual.cwiseProduct(weight).squaredNorm() / n / std::pow(LevelOf(c, channel), 2);
     // As if each channel's noise were unknown: one that slips counts little beside the others.
     fit.cost += n * std::log(1 + fit.left[c]);
     samples += n;
@@ -316,7 +364,10 @@ FormFit SlipModel::Judge(const FormFit& fit) const {
 FormFit SlipModel::Descend(const FormFit& from, const Part& without_delay, int iterations) const {
   const Part part = Later(without_delay, from.form.delay);
   const auto d = static_cast<Eigen::Index>(free_.size());
-  const bool delay = from.form.free_delay;
+  const bool delay = from.form.free_delay, rate = from.form.free_rate;
+  // Of the clock, by which the record's end is off by a sample.
+  const double of_rate =
+      (grid_[1] - grid_[0]) / (experiment_.record.t.back() - experiment_.record.t.front());
   const double until = part.until + (delay ? std::max(0.0, -from.form.delay) : 0.0);
   FormFit best;
   Eigen::MatrixXd simulated;
@@ -350,13 +401,21 @@ FormFit SlipModel::Descend(const FormFit& from, const Part& without_delay, int i
       slopes.push_back(Predict(all.front(), later).topRows(rows) -
                        Predict(all.front(), earlier).topRows(rows));
     }
+    if (rate) {
+      RecordForm faster = best.form;
+      faster.rate += 0.5 * of_rate;
+      RecordForm slower = best.form;
+      slower.rate -= 0.5 * of_rate;
+      slopes.push_back(Predict(all.front(), faster).topRows(rows) -
+                       Predict(all.front(), slower).topRows(rows));
+    }
     const auto unknowns = static_cast<Eigen::Index>(slopes.size());
     if (unknowns == 0) return best;
     Eigen::MatrixXd J(rows * channels, unknowns);
     Eigen::VectorXd r(rows * channels);
     for (Eigen::Index c = 0; c < channels; ++c) {
       const ChannelForm& form = best.form.channels[static_cast<std::size_t>(c)];
-      const double weight = 1 / (level_[c] * std::sqrt(1 + best.left[c]));
+      const double weight = 1 / (LevelOf(c, form) * std::sqrt(1 + best.left[c]));
       const Eigen::VectorXd use = usable_.col(c).head(rows);
       Eigen::MatrixXd free(rows, (form.free_factor ? 1 : 0) + (form.free_constant ? 1 : 0));
       if (form.free_factor) free.col(0) = shown.col(c).cwiseProduct(use);
@@ -391,6 +450,9 @@ FormFit SlipModel::Descend(const FormFit& from, const Part& without_delay, int i
         forms.back().delay = std::clamp(
             best.form.delay + std::clamp(step[d] * interval, -most, most), earliest_, latest_);
       }
+      if (rate)
+        forms.back().rate =
+            std::clamp(best.form.rate + step[unknowns - 1] * of_rate, -kMostOfRate, kMostOfRate);
     }
     const std::vector<Eigen::MatrixXd> tried = Simulate(next, until);
     const double before = best.cost;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,6 +28,8 @@ struct RecordForm {
   std::vector<ChannelForm> channels;
   bool free_delay = false;
   double delay = 0;  ///< [s] by which the record is late
+  bool free_rate = false;
+  double rate = 0;  ///< by which its clock runs fast from the start on, relative
 };
 
 /// What a form leaves, at the best parameters found.
@@ -35,16 +39,18 @@ struct FormFit {
   RecordForm form;       ///< with what was free filled in
   Eigen::VectorXd left;  ///< by channel: mean square over the level's square
   double cost = 0;       ///< what was made small, by sample
+  double named = 0;      ///< a parameter that was looked for beside the set's
   double mean() const { return left.size() > 0 ? left.mean() : 0.0; }
 };
 
 class SlipModel {
  public:
   /// `level`: of the channels' noise. `points`: values of parameters by name to begin from besides
-  /// the set's.
+  /// the set's. `stop`, asked in any thread, ends simulations, which have failed then.
   SlipModel(const MeasurementSet& set, int experiment, const Eigen::VectorXd& level,
             const Eigen::MatrixXd& usable,
-            const std::vector<std::vector<std::pair<std::string, double>>>& points);
+            const std::vector<std::vector<std::pair<std::string, double>>>& points,
+            const std::function<bool()>& stop);
   ~SlipModel();
 
   bool ok() const { return ok_; }
@@ -54,6 +60,10 @@ class SlipModel {
   double LongestDelay() const { return latest_; }
   double EarliestDelay() const { return earliest_; }
   double period() const { return period_; }
+  /// From now on simulations are without what the steps in space and time do at a fit's parameters.
+  bool Refine(const FormFit& fit) const;
+  /// Of the cable's parameters that are fitted, the value in a fit; nothing where it is not.
+  std::optional<double> ValueOf(const std::string& name, const FormFit& fit) const;
 
   /// The record as it is.
   RecordForm Plain() const;
@@ -84,7 +94,10 @@ class SlipModel {
   Eigen::MatrixXd usable_;
   std::vector<std::vector<int>> axes_;  // by channel: columns of the axes
   std::unique_ptr<Unknowns> unknowns_;
+  double LevelOf(Eigen::Index channel, const ChannelForm& form) const;
+  Eigen::VectorXd AllOf(const Eigen::VectorXd& at) const;
   std::unique_ptr<RecordModel> model_;  // of the same experiment on an even grid, all axes shown
+  Eigen::VectorXd shown_level_;         // of the noise of what it shows
   std::vector<double> grid_;
   std::vector<int> free_;  // unknowns that are fitted
   double earliest_ = 0, latest_ = 0, period_ = 0;

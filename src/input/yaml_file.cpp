@@ -1,3 +1,4 @@
+#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -7,6 +8,53 @@
 #include "cosserat_cable/input/yaml_value.h"
 
 namespace cosserat_cable {
+namespace {
+
+bool IsOfName(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) || c == '_' || c == '.';
+}
+
+/// A name with an index, "extensions.maxwell[0].tau", that stands within { } or [ ] without quotes:
+/// YAML takes its bracket for a list there.
+struct BareName {
+  int line = 0;  ///< 0: there is none
+  std::string name;
+};
+
+BareName FindBareName(const std::string& text) {
+  int line = 1, depth = 0;
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i], before = i > 0 ? text[i - 1] : '\n';
+    if (c == '\n') ++line;
+    if (quote) {
+      if (c == quote) quote = 0;
+    } else if ((c == '"' || c == '\'') && !IsOfName(before)) {
+      quote = c;
+    } else if (c == '#' && std::isspace(static_cast<unsigned char>(before))) {
+      while (i + 1 < text.size() && text[i + 1] != '\n') ++i;
+    } else if (c == '[' && IsOfName(before)) {
+      std::size_t begin = i, end = i + 1;
+      while (begin > 0 && IsOfName(text[begin - 1])) --begin;
+      while (end < text.size() && std::isdigit(static_cast<unsigned char>(text[end]))) ++end;
+      const bool index = end > i + 1 && end < text.size() && text[end] == ']';
+      if (index && depth > 0) {
+        while (end + 1 < text.size() && (IsOfName(text[end + 1]) || text[end + 1] == '[' ||
+                                         (text[end + 1] == ']' && text[end] != ']')))
+          ++end;
+        return {line, text.substr(begin, end + 1 - begin)};
+      }
+      if (index) i = end;
+    } else if (c == '{' || c == '[') {
+      ++depth;
+    } else if ((c == '}' || c == ']') && depth > 0) {
+      --depth;
+    }
+  }
+  return {};
+}
+
+}  // namespace
 
 YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
   std::error_code ignored;  // what cannot be asked about cannot be opened either
@@ -35,6 +83,13 @@ YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
     }
     return YamlValue::Root(path, documents[0], problems);
   } catch (const YAML::Exception& error) {
+    if (const BareName bare = FindBareName(text.str()); bare.line > 0) {
+      problems->Add(path, bare.line, bare.name,
+                    "malformed YAML: " + error.msg +
+                        ": within { } and [ ] a name with brackets stands in quotes: '" +
+                        bare.name + "'");
+      return {};
+    }
     problems->Add(path, error.mark.is_null() ? 0 : error.mark.line + 1, "",
                   "malformed YAML: " + error.msg);
     return {};

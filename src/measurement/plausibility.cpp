@@ -17,6 +17,11 @@ constexpr std::size_t kFewSamples = 8;
 constexpr std::size_t kFewSteps = 3;
 // [median periods]
 constexpr double kGap = 5;
+// Of the cable's own mass: a body on it that is heavier, and more than so much [kg], may be in
+// grams.
+constexpr double kHeavy = 50, kHeavyMass = 0.5;
+// Times that are tried where a clamp moves: in all, over the time in which it does.
+constexpr int kShifts = 100;
 // [rad] Eight turns; in degrees it is less than one.
 constexpr double kManyTurns = 50;
 constexpr std::size_t kMostShown = 5;
@@ -54,6 +59,8 @@ class ExperimentLooks {
     cable.FillFrom(set.cable);
     reach_ = kReach * cable.length.value.value_or(0);
     length_ = FormatNumber(cable.length.value.value_or(0)) + " m";
+    own_mass_ = cable.length.value.value_or(0) * cable.mass_per_length.value.value_or(0);
+    if (cable.masses.value) masses_ = *cable.masses.value;
   }
 
   void Check() {
@@ -68,6 +75,7 @@ class ExperimentLooks {
     }
     CheckClampDistance();
     CheckStart();
+    CheckMasses();
   }
 
  private:
@@ -157,25 +165,88 @@ class ExperimentLooks {
         ->Add(file, line, key, message + ": " + (most ? slip : "an outlier?"));
   }
 
-  double Origin(const Channel& channel, Eigen::Index i) const {
-    const double t = experiment_.record.t[static_cast<std::size_t>(i)];
+  double Origin(const Channel& channel, Eigen::Index i, double late = 0) const {
+    const double t = experiment_.record.t[static_cast<std::size_t>(i)] - late;
     return channel.in_frame_a ? 0 : PositionAt(experiment_.a, t)[channel.axis];
+  }
+
+  /// Whether nearly all samples are within the cable's reach, of times that are late by so much
+  /// [s].
+  bool Reaches(const Channel& channel, const Eigen::VectorXd& values, double factor,
+               double late = 0) const {
+    Eigen::Index beyond = 0;
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+      if (std::abs(factor * values[i] - Origin(channel, i, late)) > reach_) ++beyond;
+    return static_cast<double>(beyond) <= kOutliers * static_cast<double>(values.size());
+  }
+
+  /// By how much the record's times would have to be late or early [s]: the least that will do.
+  /// Zero where none will, or no clamp moves.
+  double LatenessOfReach(const Channel& channel, const Eigen::VectorXd& values) const {
+    if (experiment_.quasi_static() || channel.in_frame_a || !experiment_.a.motion) return 0;
+    const std::vector<double>& times = experiment_.a.motion->t;
+    const double most = times.back() - times.front();
+    for (int i = 1; i <= kShifts; ++i)
+      for (const double late : {most * i / kShifts, -most * i / kShifts})
+        if (Reaches(channel, values, 1, late)) return late;
+    return 0;
+  }
+
+  /// The column of another axis with which it would have to be exchanged; empty where none would
+  /// do.
+  std::string ExchangeOfReach(const Channel& channel) const {
+    for (std::size_t k = 0; k < experiment_.channels.size(); ++k) {
+      const Channel& other = experiment_.channels[k];
+      if (other.quantity != channel.quantity || other.axis == channel.axis ||
+          other.in_frame_a != channel.in_frame_a || other.s != channel.s)
+        continue;
+      const Eigen::VectorXd here = ValuesOf(channel),
+                            there = experiment_.record.values.col(static_cast<Eigen::Index>(k));
+      if (Reaches(channel, there, 1) && Reaches(other, here, 1)) return other.column;
+    }
+    return "";
+  }
+
+  Eigen::VectorXd ValuesOf(const Channel& channel) const {
+    for (std::size_t k = 0; k < experiment_.channels.size(); ++k)
+      if (&experiment_.channels[k] == &channel)
+        return experiment_.record.values.col(static_cast<Eigen::Index>(k));
+    return {};
   }
 
   /// Which slip would bring a channel within the cable's reach that is not.
   std::string SlipOfReach(const Channel& channel, const Eigen::VectorXd& values) const {
-    const auto reaches = [&](double factor) {
-      Eigen::Index beyond = 0;
-      for (Eigen::Index i = 0; i < values.size(); ++i)
-        if (std::abs(factor * values[i] - Origin(channel, i)) > reach_) ++beyond;
-      return static_cast<double>(beyond) <= kOutliers * static_cast<double>(values.size());
-    };
     const bool moves_little = values.maxCoeff() - values.minCoeff() <= 2 * reach_;
-    if (reaches(-1)) return "is its sign turned?";
-    if (moves_little && reaches(1e-3))
+    const std::string other = ExchangeOfReach(channel);
+    const std::string exchanged = other.empty() ? "" : "is it exchanged with '" + other + "'?";
+    if (Reaches(channel, values, -1))
+      return other.empty() ? "is its sign turned?"
+                           : "is its sign turned, or is it exchanged with '" + other + "'?";
+    if (!exchanged.empty()) return exchanged;
+    if (const double late = LatenessOfReach(channel, values); late != 0)
+      return "are its times " + FormatRounded(std::abs(late), 2) + " s too " +
+             (late > 0 ? "late" : "early") + " beside the clamp's motion, or more?";
+    if (moves_little && Reaches(channel, values, 1e-3))
       return "is it in mm, or its zero another one (`offset: unknown`)?";
     if (moves_little) return "is its zero another one (`offset: unknown`)?";
-    return "is it in mm?";
+    return Reaches(channel, values, 1e-3) ? "is it in mm?"
+                                          : "is it in another unit, or from another clamp?";
+  }
+
+  void CheckMasses() {
+    const auto is_heavy = [&](double mass) {
+      return mass > kHeavyMass && own_mass_ > 0 && mass > kHeavy * own_mass_;
+    };
+    const auto warn = [&](const SourceMark& mark, const char* key, double mass) {
+      warnings_->Add(mark.file, mark.line, key,
+                     "got " + FormatRounded(mass) + " kg on a cable of " +
+                         FormatRounded(own_mass_, 2) + " kg: is it in grams?");
+    };
+    for (const LumpedMassKey& one : masses_)
+      if (is_heavy(one.mass.mass)) warn(one.s_mark, "masses", one.mass.mass);
+    const EndCondition& b = experiment_.b;
+    if (b.kind == EndCondition::Kind::kDisc && is_heavy(b.disc.mass))
+      warn(b.mark, "disc.mass", b.disc.mass);
   }
 
   void CheckReach(const Channel& channel, const Eigen::VectorXd& values) {
@@ -210,6 +281,27 @@ class ExperimentLooks {
     Warn(row, channel.column, "got " + FormatRounded(largest) + " rad: is it in degrees?");
   }
 
+  /// Whether the clamps are in reach of each other nearly all the time, with the one's times late.
+  bool Reach(const std::vector<double>& times, double late) const {
+    std::size_t beyond = 0;
+    for (const double t : times)
+      if ((PositionAt(experiment_.b, t - late) - PositionAt(experiment_.a, t)).norm() > reach_)
+        ++beyond;
+    return static_cast<double>(beyond) <= kOutliers * static_cast<double>(times.size());
+  }
+
+  std::string SlipOfDistance(const std::vector<double>& times) const {
+    const auto& b = experiment_.b.motion;
+    if (!b || !experiment_.a.motion || experiment_.quasi_static()) return "is it in mm?";
+    const double most = b->t.back() - b->t.front();
+    for (int i = 1; i <= kShifts; ++i)
+      for (const double late : {most * i / kShifts, -most * i / kShifts})
+        if (Reach(times, late))
+          return "are the times of " + b->file + " " + FormatRounded(std::abs(late), 2) +
+                 " s too " + (late > 0 ? "late" : "early") + " beside clamp a's, or more?";
+    return "is it in mm?";
+  }
+
   void CheckClampDistance() {
     const EndCondition& a = experiment_.a;
     const EndCondition& b = experiment_.b;
@@ -225,9 +317,10 @@ class ExperimentLooks {
       if (distance > reach_) ++beyond;
       farthest = std::max(farthest, distance);
     }
-    Judge(b.mark.file, b.mark.line, b.mark.key, beyond, times.size(),
-          "the clamps are " + FormatRounded(farthest) + " m apart, the cable is " + length_ +
-              " long");
+    Judge(
+        b.mark.file, b.mark.line, b.mark.key, beyond, times.size(),
+        "the clamps are " + FormatRounded(farthest) + " m apart, the cable is " + length_ + " long",
+        beyond > 0 ? SlipOfDistance(times) : "");
   }
 
   void CheckStart() {
@@ -248,7 +341,9 @@ class ExperimentLooks {
   Problems* problems_;
   Problems* warnings_;
   std::string path_, length_;
-  double reach_ = 0;  // [m] from clamp a
+  std::vector<LumpedMassKey> masses_;
+  double own_mass_ = 0;  // [kg]
+  double reach_ = 0;     // [m] from clamp a
 };
 
 }  // namespace

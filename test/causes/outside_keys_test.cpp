@@ -51,11 +51,43 @@ TEST(OutsideKeys, ToldWhereFaultsOfARecordBelong) {
             "set (measurement.yaml): beside its `cable`, or of one experiment\n");
 }
 
-TEST(OutsideKeys, ToldThatAnUncertainNumberHasNoExtension) {
-  EXPECT_EQ(SaidWith("  uncertain: [extensions.clamp_compliance.b.bending]\n"),
-            "f:9: cable.uncertain[0]: got 'extensions.clamp_compliance.b.bending' of an extension "
-            "that the cable does not have, expected it under `extensions`: its numbers are where "
-            "the search begins\n");
+TEST(OutsideKeys, ToldHowToWriteAnExtensionThatAnUncertainNumberNeeds) {
+  const auto said = [](const std::string& names) {
+    return SaidWith("  uncertain: [" + names + "]\n");
+  };
+  const std::string begin = "f:9: cable.uncertain[0]: got ",
+                    why =
+                        " of an extension that the cable does not have, expected it under "
+                        "`extensions`: its numbers are where the search begins, such as "
+                        "`extensions: {";
+  for (const auto& [name, entry] :
+       {std::pair<const char*, const char*>{"extensions.added_mass.mass", "added_mass: {s: "},
+        {"extensions.contact.plane.offset", "contact: {plane: {azimuth: "},
+        {"extensions.clamp_play.b.gap", "clamp_play: {b: {gap: "},
+        {"extensions.section_friction.EI", "section_friction: {EI: "}}) {
+    const std::string text = said(name);
+    EXPECT_EQ(text.rfind(begin + "'" + name + "'" + why + entry, 0), 0u) << text;
+    // What is shown can be read, as it stands.
+    const std::size_t from = text.find("extensions: {");
+    const std::size_t to = text.find("}`");
+    ASSERT_NE(to, std::string::npos) << text;
+    EXPECT_EQ(SaidWith("  uncertain: [" + std::string(name) + "]\n  " +
+                       text.substr(from, to + 1 - from) + "\n"),
+              "");
+  }
+}
+
+TEST(OutsideKeys, AnUncertainExtensionThatIsNotThereBeginsWhereASizeWillDo) {
+  for (const char* names :
+       {"extensions.clamp_compliance.b.bending", "extensions.external_damping.rate",
+        "extensions.air_drag.Cd", "extensions.rest_curvature.k1",
+        "extensions.structural_damping.loss_factor", "extensions.bend_twist_coupling.c1",
+        "extensions.anisotropy.difference", "'extensions.maxwell[0].EI'",
+        "'extensions.maxwell[0].tau', 'extensions.maxwell[0].EI'",
+        "extensions.section_friction.EI, extensions.section_friction.slip_curvature",
+        "extensions.clamp_friction.a.stuck, extensions.clamp_friction.a.slip_moment, "
+        "extensions.clamp_friction.a.spring"})
+    EXPECT_EQ(SaidWith(std::string("  uncertain: [") + names + "]\n"), "") << names;
 }
 
 TEST(OutsideKeys, LetAClampTurnThatHasADashpot) {

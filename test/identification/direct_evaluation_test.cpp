@@ -93,6 +93,24 @@ const DirectBias* Find(const DirectRingDown& ring, const std::string& name) {
   return nullptr;
 }
 
+TEST(DirectEvaluation, AFitFarFromTheFrequencyIsNamed) {
+  std::mt19937 random(1);
+  MeasurementSet set = Wire();
+  set.experiments = {Cantilever(false, 20.0, 1.5, &random)};
+  const DirectEvaluation out = EvaluateDirectly(set);
+  const double EI = 402.25 * 3.494486e-6;  // as in BendingByHand
+  EXPECT_EQ(DisagreementOf(out, "EI", 0.99 * EI, 1.01 * EI), "");
+  EXPECT_EQ(DisagreementOf(out, "GJ", 0.99 * EI, 1.01 * EI), "");
+  const std::string text = DisagreementOf(out, "EI", 2.49 * EI, 2.51 * EI);
+  EXPECT_NE(text.find("the frequency alone of bend makes [EI] 0.0014"), std::string::npos) << text;
+  // A wide interval contradicts nothing.
+  EXPECT_EQ(DisagreementOf(out, "EI", 0.5 * EI, 4.5 * EI), "");
+  // Of a hanging cable gravity's share is taken away first: w^2 rises by 1.571 g/L = 77.06.
+  set.experiments = {Cantilever(true, 20.0, 1.5, &random)};
+  const double without = (402.25 - 77.06) * 3.494486e-6;
+  EXPECT_EQ(DisagreementOf(EvaluateDirectly(set), "EI", 0.99 * without, 1.01 * without), "");
+}
+
 TEST(DirectEvaluation, BendingByHand) {
   std::mt19937 random(1);
   MeasurementSet set = Wire();

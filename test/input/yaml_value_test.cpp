@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "cosserat_cable/input/map_reader.h"
 #include "cosserat_cable/input/number_text.h"
@@ -268,6 +269,27 @@ TEST(LoadYamlFile, ReportsMalformedYamlWithItsLine) {
   const TemporaryFile alias("a: 1\nb: *none\n");
   EXPECT_EQ(SaidOfFile(alias.path()).rfind(alias.path() + ":2: malformed YAML: ", 0), 0u)
       << SaidOfFile(alias.path());
+}
+
+TEST(LoadYamlFile, ANameWithBracketsNeedsQuotesWithinBraces) {
+  for (const auto& [text, line, name] :
+       {std::tuple<const char*, const char*, const char*>{
+            "a: 1\nb: {extensions.maxwell[0].tau: 0.1}\n", ":2: ", "extensions.maxwell[0].tau"},
+        {"a: [EI,\n  faults.sensor[0].tilt[1],\n  GJ]\n", ":2: ", "faults.sensor[0].tilt[1]"},
+        {"a: {b: it's, c: \"d[0]\", # e[1]\n  f[2]: 1}\n", ":2: ", "f[2]"}}) {
+    const TemporaryFile file(text);
+    const std::string said = SaidOfFile(file.path());
+    EXPECT_EQ(said.rfind(file.path() + line + name + ": malformed YAML: ", 0), 0u) << said;
+    EXPECT_NE(said.find(std::string("a name with brackets stands in quotes: '") + name + "'"),
+              std::string::npos)
+        << said;
+  }
+  for (const char* text : {"a: {\"b[0]\": 1, 'c[0].d': 2}\n", "a[0].b: 1\nc:\n  - d[1]\n"}) {
+    const TemporaryFile file(text);
+    Problems problems;
+    EXPECT_TRUE(LoadYamlFile(file.path(), &problems).given());
+    EXPECT_TRUE(problems.empty()) << problems.ToString();
+  }
 }
 
 TEST(LoadYamlFile, ReportsEmptyFilesAndSecondDocuments) {

@@ -113,6 +113,77 @@ TEST(Plausibility, AnotherZero) {
       << looks.problems;
 }
 
+/// A cable of 0.25 m on a clamp that travels 3 m in 3 s, its other end seen along the way; its
+/// record's times are late by so much [s].
+std::string SaidOfATravelThatIs(double late, double factor) {
+  MeasurementSet set;
+  set.cable.length.value = 0.25;
+  Experiment experiment;
+  experiment.name = "travel";
+  experiment.record.file = "travel.csv";
+  experiment.b.kind = EndCondition::Kind::kFree;
+  ClampMotion motion;
+  for (int i = 0; i <= 300; ++i) {
+    motion.t.push_back(0.01 * i);
+    motion.poses.emplace_back();
+    motion.poses.back().p = {0.01 * i, 0, 0};
+  }
+  experiment.a.motion = motion;
+  Channel tip;
+  tip.column = "tip_x";
+  tip.s = 0.25;
+  experiment.channels = {tip};
+  experiment.record.values.resize(300, 1);
+  for (int i = 0; i < 300; ++i) {
+    experiment.record.t.push_back(0.01 * i + late);
+    experiment.record.values(i, 0) = factor * (0.01 * i + 0.02 * std::sin(0.3 * i));
+  }
+  set.experiments = {experiment};
+  Problems problems, warnings;
+  CheckPlausibility(set, &problems, &warnings);
+  return problems.ToString();
+}
+
+TEST(Plausibility, ALateRecordOfAMovingClampIsNotInMillimetres) {
+  EXPECT_EQ(SaidOfATravelThatIs(0, 1), "");
+  const std::string late = SaidOfATravelThatIs(1, 1), early = SaidOfATravelThatIs(-1, 1);
+  // Within 0.275 m of the clamp, it fits from 0.725 s on; tried in steps of 0.03 s.
+  EXPECT_NE(late.find("are its times 0.7"), std::string::npos) << late;
+  EXPECT_NE(late.find(" s too late beside the clamp's motion"), std::string::npos) << late;
+  EXPECT_NE(early.find(" s too early beside the clamp's motion"), std::string::npos) << early;
+  EXPECT_EQ(late.find("in mm"), std::string::npos) << late;
+  const std::string scaled = SaidOfATravelThatIs(0, 1000);
+  EXPECT_NE(scaled.find("is it in mm?"), std::string::npos) << scaled;
+}
+
+TEST(Plausibility, ExchangedColumnsAreOffered) {
+  SetFolder folder;
+  WriteAll(&folder, std::string(kHead) + kRingdown);
+  std::string text = "t,tip_x,tip_z\n";
+  for (int i = 0; i < kRows; ++i)
+    text += std::to_string(0.005 * i) + "," + std::to_string(0.6 + 1e-6 * (i % 7)) + "," +
+            std::to_string(0.1 + 0.01 * Tip(i)) + "\n";
+  folder.Write("ringdown_small.csv", text);
+  MeasurementSet set = folder.LoadGood();
+  set.experiments[0].a.pose.p.z() = 0.5;
+  Problems problems, warnings;
+  CheckPlausibility(set, &problems, &warnings);
+  EXPECT_NE(folder.Anonymous(problems).find("is it exchanged with 'tip_z'?"), std::string::npos)
+      << folder.Anonymous(problems);
+}
+
+TEST(Plausibility, AMassInGrams) {
+  // The cable of 0.25 m weighs 22.5 g.
+  for (const auto& [mass, heavy] : {std::pair<const char*, bool>{"0.3", false}, {"5", true}}) {
+    const Looks looks =
+        Look(Same, Replaced(std::string(kHead), "experiments:",
+                            std::string("  masses: [{s: 0.1, mass: ") + mass + "}]\nexperiments:") +
+                       kRingdown);
+    EXPECT_EQ(looks.problems, "");
+    EXPECT_EQ(looks.warnings.find("is it in grams?") != std::string::npos, heavy) << looks.warnings;
+  }
+}
+
 TEST(Plausibility, Outliers) {
   const Looks looks = Look([](int i, double x) { return i == 50 || i == 60 ? x + 0.01 * i : x; });
   EXPECT_EQ(looks.problems, "");

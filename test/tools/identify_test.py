@@ -2,6 +2,7 @@
 """cable_identify and cable_simulate on data from a simulation that shares no code with theirs."""
 
 import json
+import math
 import os
 import re
 import subprocess
@@ -12,6 +13,7 @@ import yaml
 
 # The loss at the disc: D_E in the source paper's formulas, and in truth.json.
 END_DAMPING = 'extensions.clamp_damping.b.torsion'
+PLAIN = ('EI', 'eta_EI', 'GJ', 'eta_GJ')
 
 BUILD = os.environ['COSSERAT_CABLE_TOOLS_DIR']
 PROGRAMS = os.environ['COSSERAT_CABLE_PROGRAMS_DIR']
@@ -68,6 +70,26 @@ class Identify(unittest.TestCase):
             row[index] = repr(change(float(row[index])))
         with open(path, 'w') as file:
             file.writelines(','.join(row) + '\n' for row in [header] + rows)
+
+    def edit(self, change):
+        """Writes measurement.yaml anew after change(description)."""
+        path = self.path('set', 'measurement.yaml')
+        with open(path) as file:
+            description = yaml.safe_load(file)
+        change(description)
+        with open(path, 'w') as file:
+            yaml.safe_dump(description, file)
+        return description
+
+    def change_table(self, name, change):
+        """Writes a file anew with change(rows), rows of numbers below its header."""
+        path = self.path('set', name)
+        with open(path) as file:
+            header, *rows = [line.strip().split(',') for line in file]
+        rows = change([[float(value) for value in row] for row in rows])
+        with open(path, 'w') as file:
+            file.write(','.join(header) + '\n')
+            file.writelines(','.join(map(repr, row)) + '\n' for row in rows)
 
     def check_clean(self, answer):
         """No slip is told of a good set, and no channel is more than noise."""
@@ -166,6 +188,42 @@ class Identify(unittest.TestCase):
         for channel in answer['experiments'][0]['channels']:
             self.assertLess(abs(channel['misfit'] - 1), NOISE, channel)
 
+    def test_a_slow_record_with_a_nominal_stiffness_far_off(self):
+        # At 2.6 samples in a period a cable of 2.6 times this EI shows nearly the same.
+        for factor in (0.4, 2.5):
+            with self.subTest(factor=factor):
+                truth = self.generate('wire')
+                description = self.edit(
+                    lambda set: set['cable'].update(EI=factor * truth['EI']))
+                cable = description['cable']
+                period = (2 * math.pi * (cable['length'] / 1.8751) ** 2 *
+                          math.sqrt(cable['mass_per_length'] / truth['EI']))
+
+                def thinned(rows, interval=period / 2.6):
+                    end, kept = rows[-1][0], []
+                    while len(kept) * interval < end:
+                        kept.append(min(rows, key=lambda row: abs(row[0] - len(kept) * interval)))
+                    return kept
+                for experiment in description['experiments']:
+                    self.change_table(experiment['record'], thinned)
+                answer, _ = self.identify('--no-report', '--no-profiles')
+                self.check(answer, truth, ('EI',))
+                self.assertLess(abs(answer['parameters']['EI'][0] / truth['EI'] - 1), WIRE_EI)
+                warnings = '\n'.join(answer['warnings'])
+                self.assertIn('(aliasing)', warnings)
+                self.assertRegex(warnings, r'\[EI\] is found (0\.4|2\.5)\d* times as large')
+                self.assertEqual(answer['slips'], [])
+
+    def test_a_stiffness_of_four_times_less_or_more_is_found(self):
+        for rig, factor in (('arch', 3.8), ('drive', 0.26), ('ringdowns', 3.8)):
+            with self.subTest(rig=rig):
+                truth = self.generate(rig, '--seed', 4)
+                self.edit(lambda set: set['cable'].update(EI=factor * truth['EI'],
+                                                          GJ=factor * truth['GJ']))
+                answer, _ = self.identify('--no-report', '--no-profiles', '--no-direct')
+                self.check(answer, truth, ('EI',))
+                self.check_clean(answer)
+
     def test_slips_of_channels_are_named(self):
         self.generate('wire', '--snr', 40)
         with open(self.path('set', 'measurement.yaml')) as file:
@@ -199,6 +257,110 @@ class Identify(unittest.TestCase):
         for experiment in ('ringdown_1', 'ringdown_2'):
             self.assertTrue(any(warning.startswith(experiment) and 'more than its noise' in warning
                                 for warning in answer['warnings']), answer['warnings'])
+
+    def slips_of(self, *options):
+        answer, _ = self.identify('--no-report', '--no-profiles', *options)
+        return [(slip['experiment'], slip['column'], slip['kind']) for slip in answer['slips']], answer
+
+    def columns(self):
+        """By experiment: its name, record and columns."""
+        with open(self.path('set', 'measurement.yaml')) as file:
+            return [(experiment['name'], experiment['record'],
+                     [channel['column'] for channel in experiment['channels']])
+                    for experiment in yaml.safe_load(file)['experiments']]
+
+    def test_a_gain_is_no_constant_and_the_healthy_channels_have_no_slip(self):
+        for rig, seed, gain in (('ringdowns', 1, 1.07), ('arch', 2, 1.1), ('bend', 2, 1.08)):
+            with self.subTest(rig=rig):
+                truth = self.generate(rig, '--seed', seed)
+                name, record, columns = self.columns()[0]
+                self.change_column(record, columns[0], lambda x, gain=gain: gain * x)
+                slips, answer = self.slips_of()
+                self.assertEqual(slips, [(name, columns[0], 'gain')], answer['slips'])
+                self.assertAlmostEqual(answer['slips'][0]['factor'], gain, delta=0.005)
+                self.assertLess(answer['slips'][0]['misfit_with'], 1.5)
+                self.assertIn('EI', truth)
+
+    def test_two_slips_of_one_record_are_named_and_nothing_else(self):
+        self.generate('random', '--seed', 1)
+        name, record, columns = self.columns()[1]
+        self.change_column(record, columns[0], lambda x: 1.1 * x)
+        self.change_column(record, columns[1], lambda x: x + 0.006)
+        slips, answer = self.slips_of()
+        self.assertEqual(slips, [(name, columns[0], 'gain'), (name, columns[1], 'offset')],
+                         answer['slips'])
+        self.assertAlmostEqual(answer['slips'][0]['factor'], 1.1, delta=0.005)
+        self.assertAlmostEqual(answer['slips'][1]['constant'], 0.006, delta=1e-4)
+
+    def test_a_clock_that_is_fast_or_slow(self):
+        for seed, scale in ((3, 0.002), (1, -0.002)):
+            self.generate('drive', '--seed', seed)
+            (name, record, _), = self.columns()
+            self.change_column(record, 't', lambda t, scale=scale: (1 + scale) * t)
+            slips, answer = self.slips_of()
+            self.assertEqual(slips, [(name, None, 'clock')], answer['slips'])
+            self.assertAlmostEqual(answer['slips'][0]['factor'], 1 + scale, delta=2e-4)
+            self.assertIn('0.2 % ' + ('fast' if scale > 0 else 'slow'), answer['slips'][0]['text'])
+
+    def test_a_load_with_another_sign_or_unit(self):
+        for factor, words in ((-1, 'the sign of its load turned'),
+                              (1e3 / 9.80665, 'its load in grams')):
+            with self.subTest(words):
+                self.generate('bend', '--seed', 1)
+                with open(self.path('set', 'measurement.yaml')) as file:
+                    loads = [experiment['load'] for experiment in yaml.safe_load(file)['experiments']]
+                for load in loads:
+                    for column in ('fx', 'fy', 'fz'):
+                        self.change_column(load, column, lambda f, factor=factor: factor * f)
+                slips, answer = self.slips_of()
+                self.assertEqual(sorted(slips), [(name, None, 'load')
+                                                 for name, _, _ in self.columns()])
+                for slip in answer['slips']:
+                    self.assertEqual(slip['text'], 'fits with ' + words)
+
+    def test_a_mass_in_grams(self):
+        self.generate('ringdowns', '--seed', 3, '--effect', 'added_mass')
+        with open(self.path('set', 'truth.json')) as file:
+            effect = json.load(file)['effect_parameters']
+        s, mass = (effect['extensions.added_mass.' + key] for key in ('s', 'mass'))
+        self.edit(lambda set: set['cable'].update(masses=[{'s': s, 'mass': mass}]))
+        answer, _ = self.identify('--no-report', '--no-profiles')
+        self.check_clean(answer)
+        self.edit(lambda set: set['cable'].update(masses=[{'s': s, 'mass': 1e3 * mass}]))
+        slips, answer = self.slips_of()
+        self.assertEqual([kind for _, _, kind in slips], ['mass'], answer['slips'])
+        self.assertIn('`masses` in grams', answer['slips'][0]['text'])
+
+    def test_a_known_stiffness_that_is_wrong(self):
+        truth = self.generate('ringdowns', '--seed', 4)
+        self.edit(lambda set: set['cable'].update(uncertain=['eta_EI'], EI=2.5 * truth['EI']))
+        slips, answer = self.slips_of()
+        self.assertEqual([kind for _, _, kind in slips], ['parameter'], answer['slips'])
+        self.assertAlmostEqual(answer['slips'][0]['factor'], 1 / 2.5, delta=0.01)
+
+    def test_an_extension_that_is_not_there_can_be_uncertain(self):
+        for effect in ('external_damping', 'rest_curvature', 'maxwell'):
+            with self.subTest(effect=effect):
+                truth = self.generate('effects', '--seed', 3, '--effect', effect)
+                with open(self.path('set', 'truth.json')) as file:
+                    truth.update(json.load(file)['effect_parameters'])
+                names = [name for name in truth if name.startswith('extensions.' + effect)]
+                self.edit(lambda set: set['cable'].update(uncertain=[*PLAIN, *names]))
+                answer, _ = self.identify('--no-report', '--no-profiles', '--no-slips',
+                                          '--no-direct')
+                self.check(answer, truth, ['EI'] + names)
+        self.edit(lambda set: set['cable'].update(uncertain=['extensions.added_mass.mass']))
+        code, _, errors = run(os.path.join(PROGRAMS, 'cable_identify'), self.path('set'),
+                              '--output', self.path('refused'))
+        self.assertEqual(code, 2)
+        self.assertRegex(errors, r'such as `extensions: \{added_mass: \{s: [\d.]+, mass: [\d.e-]+\}')
+
+    def test_damping_does_not_show_in_quasi_static_records(self):
+        self.generate('bend', '--seed', 1)
+        self.edit(lambda set: set['cable'].update(uncertain=['EI', 'eta_EI']))
+        answer, _ = self.identify('--no-report', '--no-profiles')
+        self.assertIn('no record moves fast enough to show [eta_EI]',
+                      answer['undetermined']['eta_EI'])
 
     def test_real_three_point_bending_is_not_explained_by_one_stiffness(self):
         if not os.path.exists(REAL):

@@ -19,5 +19,7 @@ std::string DamageOf(const Record& record, const Eigen::MatrixXd& usable);
 /// The slowest free swing that the experiment's rig has with this cable, roughly [s]; 0 where a
 /// clamp drives it, or nothing moves in time.
 double SlowestPeriod(const Experiment& experiment, const CableModel& cable);
+/// The same whether a clamp drives it or not: of the rig with its clamps still.
+double RigPeriod(const Experiment& experiment, const CableModel& cable);
 
 }  // namespace cosserat_cable

@@ -76,4 +76,11 @@ DirectEvaluation EvaluateDirectly(const MeasurementSet& set);
 
 nlohmann::json ToJson(const DirectEvaluation& evaluation);
 
+/// In words, where a stiffness is another one than a fit's by far more than both intervals and the
+/// biases that are known of this rig: one of the two has taken another swing for the record's.
+/// Empty where the two agree as well as they can, or there is none of that name.
+/// @param low, high of the fit's 95 % interval
+std::string DisagreementOf(const DirectEvaluation& evaluation, const std::string& name, double low,
+                           double high);
+
 }  // namespace cosserat_cable

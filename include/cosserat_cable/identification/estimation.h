@@ -67,13 +67,17 @@ struct ChannelFit {
   double correlation_samples = 1;  ///< how many residuals in a row are worth one
 };
 
-/// A channel, or a whole record, that would fit if it had been recorded otherwise than the set
-/// says. A suggestion: nothing is changed by it.
+/// A channel, or a whole record, that would fit if it had been recorded, or the cable loaded,
+/// otherwise than the set says. A suggestion: nothing is changed by it.
 struct ChannelSlip {
   std::string experiment;
   std::string column;   ///< empty: the whole record
-  std::string kind;     ///< offset, sign, unit, gain, axis, swapped, start or delay
-  double factor = 1;    ///< record = factor * truth + constant
+  /// offset, sign, unit, gain, axis, swapped; of the whole record start, delay, clock, load, mass
+  /// or parameter
+  std::string kind;
+  /// record = factor * truth + constant; of a clock, the record's times over the truth; of load,
+  /// mass and parameter, the truth over what the set gives
+  double factor = 1;
   double constant = 0;  ///< [the channel's unit]
   double delay = 0;     ///< [s] by which the record's times are late
   std::string shows;    ///< the axis or column that it shows instead

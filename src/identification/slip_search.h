@@ -1,0 +1,98 @@
+// The slips of one record.
+#pragma once
+
+#include <Eigen/Core>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cosserat_cable/fit/damage.h"
+#include "cosserat_cable/identification/estimation.h"
+#include "input_slips.h"
+#include "slip_model.h"
+
+namespace cosserat_cable {
+
+/// A channel is looked at where its residual is so many times the noise, squared.
+inline constexpr double kFarAbove = 4.0;
+/// Of what is left above the noise, a slip must explain this share, and leave little beside the
+/// rest.
+inline constexpr double kExplains = 0.9;
+/// What a slip leaves, in the noise's variance: with more, it stands for what the model lacks.
+inline constexpr double kFaithful = 25;
+/// No noise is taken to be less than this part of a channel's range where its level is unknown; and
+/// a residual beyond this part is looked at then.
+inline constexpr double kUnknownLevel = 0.005, kUnknownMisfit = 0.05;
+
+using Points = std::vector<std::vector<std::pair<std::string, double>>>;
+
+/// What was found for a record.
+struct Found {
+  FormFit fit;
+  double complexity = 0;
+  const InputSlip* input = nullptr;
+};
+
+class SlipSearch {
+ public:
+  SlipSearch(const MeasurementSet& set, int experiment, const ExperimentFit& fit,
+             const Points& points, const std::string& known, const std::function<bool()>& stop)
+      : set_(set),
+        known_(known),
+        index_(experiment),
+        experiment_(set.experiments[static_cast<std::size_t>(experiment)]),
+        usable_(UsableSamples(experiment_.record)),
+        level_(Levels(fit)),
+        points_(points),
+        stop_(stop),
+        model_(set, experiment, level_, usable_, points, stop),
+        inputs_(InputSlips(set, static_cast<std::size_t>(experiment))) {
+    before_ = Left(fit);
+  }
+
+  std::vector<ChannelSlip> Find();
+  /// The set with what was found mended where that holds for all records; null where nothing was.
+  const MeasurementSet* mended() const { return mended_; }
+  /// The words for it, where it is of what acts on the cable.
+  const std::string& input() const { return input_; }
+
+ private:
+  Eigen::VectorXd Levels(const ExperimentFit& fit) const;
+  Eigen::VectorXd Left(const ExperimentFit& fit) const;
+  std::vector<RecordForm> Forms(const std::vector<bool>& suspects) const;
+  FormFit Simplest(const FormFit& fit) const;
+  bool IsAsGood(const FormFit& simple, const FormFit& rich, Eigen::Index identity) const;
+  bool OfUnit(std::size_t channel, double factor) const;
+  double ComplexityOf(const RecordForm& form) const;
+  bool Explains(const FormFit& fit, double least, bool simplest = true) const;
+  void SnapToUnits(RecordForm* form) const;
+  std::vector<Found> OfChannels(const FormFit& looked, const FormFit& plain, double least) const;
+  std::vector<Found> OfInputs(double least, const std::vector<Found>& beside) const;
+  std::optional<Found> OfInput(const InputSlip& input, double least) const;
+  FormFit WholeOf(const SlipModel& model, const FormFit& part, double least) const;
+  double FarFromSet(const SlipModel& model, const FormFit& fit) const;
+  std::vector<ChannelSlip> Words(const Found& found, const Found* other) const;
+  ChannelSlip OfChannel(std::size_t channel, const FormFit& fit) const;
+  ChannelSlip OfClock(const FormFit& fit) const;
+  ChannelSlip OfInput(const InputSlip& input, const FormFit& fit) const;
+
+  const MeasurementSet& set_;
+  std::string known_;  // the words for what was found in another record
+  int index_;
+  const Experiment& experiment_;
+  Eigen::MatrixXd usable_;
+  Eigen::VectorXd level_;
+  const Points& points_;
+  std::function<bool()> stop_;
+  SlipModel model_;
+  std::vector<InputSlip> inputs_;
+  Eigen::VectorXd before_;  // by channel, mean square left over the level's
+  const MeasurementSet* mended_ = nullptr;
+  std::string input_;
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace cosserat_cable
