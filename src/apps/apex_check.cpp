@@ -18,6 +18,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <map>
 #include <set>
@@ -35,7 +36,11 @@ constexpr std::uint32_t kQueue = 100'000;
 constexpr double kFirstMessageTimeout = 60;  // [s], for the node to start and the cables to settle
 
 double ToNumber(XmlRpc::XmlRpcValue value, const std::string& key, Problems* problems) {
-  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) return static_cast<double>(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
+    const auto number = static_cast<double>(value);
+    if (std::isnan(number)) problems->Add("", 0, key, "got nan, expected a number");
+    return number;
+  }
   if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return static_cast<int>(value);
   problems->Add("", 0, key, "expected a number");
   return 0;
