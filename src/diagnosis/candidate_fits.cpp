@@ -172,6 +172,10 @@ void DiagnosisWork::FitParts() {
   } else {
     for (const Trial& larger : whole.trials)
       for (const std::string& simpler : FindCause(larger.cause)->contains) {
+        // Found by itself, it may stand where its fit was cut off.
+        for (const auto& one : models_)
+          if (one->causes() == std::vector<std::string>{simpler} && !HasEnded(*one))
+            GoOn(one.get());
         const Trial part = PartOf(larger, simpler);
         if (!part.components.empty()) parts.push_back(part);
       }

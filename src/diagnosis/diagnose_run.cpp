@@ -7,6 +7,7 @@
 
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
+#include "cosserat_cable/console/planned_outputs.h"
 #include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/console/run_program.h"
 #include "cosserat_cable/diagnosis/diagnosis.h"
@@ -34,12 +35,29 @@ void WriteExtendedSet(const MeasurementSet& extended, const fs::path& folder) {
   fs::rename(folder / "measurement.yaml", folder / kExtendedMeasurement);
 }
 
+void CheckOutputs(const DiagnoseRunOptions& options, const MeasurementSet& set,
+                  Problems* problems) {
+  PlannedOutputs outputs;
+  for (const std::string& file : FilesOf(set)) outputs.Reads(file);
+  std::vector<std::string> files = {"verdict.json",        "fits.json",    kBaselineCable,
+                                    kExtendedCable,        "report.html",  kExtendedMeasurement,
+                                    "measurement.yaml"};
+  for (const Experiment& experiment : set.experiments) {
+    files.push_back("fit/" + experiment.name + ".csv");
+    files.push_back("records/" + experiment.name + ".csv");
+  }
+  outputs.WritesFolder(options.output, "output", files);
+  outputs.WritesFile(options.json, "json");
+  outputs.Check(problems);
+}
+
 }  // namespace
 
 ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
   Problems problems, warnings;
   const MeasurementSet set = LoadMeasurementSet(options.set, &problems);
   if (problems.empty()) CheckPlausibility(set, &problems, &warnings);
+  CheckOutputs(options, set, &problems);
   const auto refuse = [&] {
     problems.SortByLine();
     std::cerr << problems.ToString();

@@ -87,6 +87,7 @@ Diagnosis Diagnose(const MeasurementSet& set, const DiagnosisOptions& options, P
     work.FitCandidates(second, first.best, kMostPairs, 0.6);
   }
   work.FitRivalsOfParts(kMostPairs, 0.8);
+  work.FinishAnswer();
   return work.Report();
 }
 

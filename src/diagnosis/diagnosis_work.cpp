@@ -331,6 +331,15 @@ void DiagnosisWork::RefineOne(FittedTrial* model) {
   Charge("finer steps", model->problem->count() - before);
 }
 
+void DiagnosisWork::FinishAnswer() {
+  const int best = Judged().best;
+  if (best == 0) return;
+  const std::shared_ptr<FittedTrial> answer = models_[static_cast<std::size_t>(best)];
+  if (!HasEnded(*answer)) GoOn(answer.get());
+  if (!OutOfTime()) RefineOne(answer.get());
+  LookAtTheBest();
+}
+
 void DiagnosisWork::RefineBest() {
   std::vector<FittedTrial*> order;
   for (auto& model : models_) order.push_back(model.get());

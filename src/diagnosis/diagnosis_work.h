@@ -60,6 +60,8 @@ class DiagnosisWork {
   /// The steps of the best models made as fine as what is left there asks, and they are fitted
   /// again.
   void RefineBest();
+  /// The answer so far, fitted to its end and with steps as fine as what it leaves asks.
+  void FinishAnswer();
   /// Whether a model leaves so little beyond the noise that nothing can be missing from it.
   bool LeavesNothing(int model) const;
   /// The verdict on what has been fitted so far.
