@@ -231,6 +231,7 @@ Findings LinkMotion::MotionFindings(const std::string& world) const {
   AddClockFindings(above, &findings);
   AddDriftFindings(above, &findings);
   AddGapFindings(above, &findings);
+  AddUnconnectedFindings(&findings);
   for (Finding& finding : judge_->Report(WayAboveVehicle(), world))
     findings.push_back(std::move(finding));
   return findings;

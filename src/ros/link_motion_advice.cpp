@@ -259,6 +259,35 @@ void LinkMotion::AddGapFindings(const std::set<std::string>& above, Findings* fi
   }
 }
 
+void LinkMotion::AddUnconnectedFindings(Findings* findings) const {
+  for (const std::string& frame : WayAboveVehicle()) {
+    const auto edge = edges_.find(frame);
+    if (edge != edges_.end() && edge->second.moves) return;
+  }
+  std::vector<std::string> children;
+  std::int64_t first = 0;
+  for (const auto& [child, edge] : edges_) {
+    const bool moves = edge.source == Source::kTf && edge.moves && !edge.is_followed;
+    if (!moves || JointAbove(child) || IsAbove(vehicle_.root, child)) continue;
+    if (children.empty()) first = edge.first;
+    children.push_back(child);
+  }
+  if (children.empty()) return;
+  const std::string nearest = NearestWord(vehicle_.root, children);
+  const std::string& child = nearest.empty() ? children.front() : nearest;
+  Finding finding;
+  finding.kind = "unconnected";
+  finding.subject = edges_.at(child).parent + " -> " + child;
+  finding.topic = options_.topics.tf;
+  finding.what = "moves and leads to no link, and the vehicle's root '" + vehicle_.root +
+                 "' stands still: the motion of the body is not in this run";
+  finding.remedy = "record the transform from '" + child + "' to '" + vehicle_.root +
+                   "' as well, or has one of them another name?";
+  finding.count = edges_.at(child).samples;
+  finding.first = finding.worst = first;
+  findings->push_back(std::move(finding));
+}
+
 Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) const {
   *nothing = false;
   const std::set<std::string> above = Above(world);

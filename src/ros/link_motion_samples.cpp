@@ -10,6 +10,8 @@
 namespace cosserat_cable {
 namespace {
 
+// No joint turns or goes farther [rad], [m].
+constexpr double kLargestPosition = 1e6;
 // Transports reorder messages by some hundredths of a second; a bag that starts over jumps by its
 // length.
 constexpr std::int64_t kBackwardsJump = 500'000'000;  // [ns]
@@ -209,6 +211,9 @@ void LinkMotion::CountBadStamp(const std::string& child, Edge* edge, std::int64_
 void LinkMotion::JudgeSaid(Edge* edge, const std::string& child, const Sample& sample) {
   // What is above the frame that the user takes as inertial moves nothing.
   if (!judge_ || !edge->is_followed || child == options_.world_frame) return;
+  // A follower's position is made here of its leader's, of which all is said.
+  const JointModel* joint = edge->source == Source::kJointStates ? JointAbove(child) : nullptr;
+  if (joint && !joint->mimic.empty()) return;
   if (!edge->judged) edge->judged = judge_->At(edge->parent, child);
   judge_->AddSaid(edge->judged, sample.publisher, sample.stamp, sample.X_PC);
 }
@@ -385,10 +390,12 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message, const std::strin
                       Event("'" + named_[i] + "'", "'" + named_[i] + "'",
                             "is this the URDF of the vehicle that was recorded?"));
       unknown_joints_.insert(named_[i]);
-    } else if (!std::isfinite(position)) {
+    } else if (!(std::abs(position) < kLargestPosition)) {
       warnings_.Count(
           "joint position not finite",
-          Event("'" + named_[i] + "'", "'" + named_[i] + "' by " + ToString(Source::kJointStates),
+          Event("'" + named_[i] + "'",
+                "'" + named_[i] + "' by " + ToString(Source::kJointStates) + ", " +
+                    Printed("%.3g", position),
                 "it is left out: leave joints whose position is not known out of the message"));
     } else if (joint->type != JointModel::Type::kFloating &&
                joint->type != JointModel::Type::kFixed && joint->mimic.empty()) {

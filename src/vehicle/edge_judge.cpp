@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cosserat_cable/math/rotation.h"
+#include "course_judge.h"
 #include "motion_channel.h"
 #include "outlier_judge.h"
 
@@ -74,6 +75,12 @@ OutlierLimits LimitsOfOne(EdgeRole role, bool translation) {
   return translation ? OutlierLimits{1e-3, 20} : OutlierLimits{3e-3, 50};
 }
 
+// Nothing on wheels goes faster, nor does its body take 20 g or its carriers 100 g for a tenth of a
+// second.
+CourseLimits CourseLimitsOf(EdgeRole role) {
+  return role == EdgeRole::kJoint ? CourseLimits{50, 1000} : CourseLimits{150, 200};
+}
+
 // The rotation from one pose to the next, in the first one's axes.
 Eigen::Vector3d Turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond turn = from.conjugate() * to;
@@ -104,12 +111,14 @@ struct EdgeJudge::Impl {
         longest(max_gap),
         translation(TranslationLimits(role), max_gap),
         rotation(RotationLimits(role), max_gap),
-        singles(LimitsOfOne(role, true), LimitsOfOne(role, false), max_gap) {}
+        singles(LimitsOfOne(role, true), LimitsOfOne(role, false), max_gap),
+        course(CourseLimitsOf(role), max_gap) {}
 
   EdgeRole role;
   double longest;
   MotionChannel translation, rotation;
   OutlierJudge singles;
+  CourseJudge course;
   bool moves = false;
 
   struct Sample {
@@ -213,6 +222,7 @@ void EdgeJudge::Restart() {
   impl_->translation.Restart();
   impl_->rotation.Restart();
   impl_->singles.Restart();
+  impl_->course.Restart();
 }
 
 void EdgeJudge::Add(std::int64_t stamp, const Pose& X_PC) { impl_->Add({stamp, X_PC}); }
@@ -223,6 +233,7 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
     if (periods >= kIntervalsToKnowTheRate && h < kTooClose * period()) return;
     const Eigen::Vector3d d = sample.X.p - last.X.p;
     const Eigen::Vector3d turn = Turn(last.X.q, sample.X.q);
+    course.Add(sample.stamp, sample.X.p);
     moves = moves || d.squaredNorm() > kStill * kStill || turn.squaredNorm() > kStill * kStill;
     if (h <= longest) {
       period_sum += h;
@@ -448,6 +459,7 @@ Findings EdgeJudge::Report(const std::string& subject, const std::string& topic)
   if (impl_->stride == 0) impl_->KeepWaiting();
   Impl whole = *impl_;
   whole.singles.JudgeRest();
+  whole.course.Report(&findings);
   whole.ReportJumps(&findings);
   whole.ReportOutliers(&findings);
   whole.ReportStamps(&findings);

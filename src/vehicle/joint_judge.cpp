@@ -17,6 +17,8 @@ constexpr double kVelocityBase = 0.02;
 constexpr double kOffAxis = 5e-3, kOffTurn = 0.02;
 // Beyond the limits by this factor a unit is more likely than an overload.
 constexpr double kUnitFactor = 1.5;
+// As the other unit it would use this part of its range at least.
+constexpr double kUsedPart = 0.02;
 // A unit is wrong in all samples, an outlier in few of them.
 constexpr double kHabit = 0.1;
 constexpr double kDegree = M_PI / 180, kMillimetre = 1e-3;
@@ -80,6 +82,7 @@ void JointJudge::Add(std::int64_t stamp, const Pose& X_PC) {
 }
 
 void JointJudge::Judge(std::int64_t stamp, double position, bool wraps) {
+  ++samples_;
   least_ = std::min(least_, position);
   most_ = std::max(most_, position);
   const double beyond = std::max(position - joint_->upper, joint_->lower - position);
@@ -133,7 +136,9 @@ void JointJudge::ReportLimit(const std::string& topic, Findings* findings) const
   const double reach = std::max(std::abs(joint_->lower), std::abs(joint_->upper));
   const bool unit_fits = scale * most_ <= joint_->upper + tolerance_ &&
                          scale * least_ >= joint_->lower - tolerance_ &&
-                         std::abs(limit_.value) > kUnitFactor * reach;
+                         std::abs(limit_.value) > kUnitFactor * reach &&
+                         scale * std::abs(limit_.value) > kUsedPart * reach &&
+                         static_cast<double>(limit_.count) > kHabit * static_cast<double>(samples_);
   if (unit_fits) {
     finding.kind = turns() ? "degrees" : "millimetres";
     finding.remedy = turns() ? "are these degrees? as such they all fit: publish radians"

@@ -35,7 +35,7 @@ class OutlierJudge {
   };
   /// Of translations, or of rotations.
   struct Found {
-    Tally outliers;  ///< excursions of one to three samples
+    Tally outliers;  ///< excursions of one to four samples
     Tally steps;
     Tally stamps;  ///< samples that lie on the path of the others, at another time
 
@@ -57,7 +57,7 @@ class OutlierJudge {
 
  private:
   static constexpr int kSide = 3;     // samples of a parabola
-  static constexpr int kLongest = 3;  // samples of an excursion
+  static constexpr int kLongest = 4;  // samples of an excursion
   static constexpr int kAround = 8;   // samples on either side that say what is usual
 
   struct Sample {

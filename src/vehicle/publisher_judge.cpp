@@ -22,6 +22,8 @@ constexpr double kApart = 5e-3, kLever = 0.5;
 // this.
 constexpr double kContinues = 0.2;
 constexpr std::uint64_t kFewestInARow = 8;
+// What turns by more from sample to sample may be a wheel: no courses can be told [rad].
+constexpr double kLargestTurn = 1.0;
 
 double Angle(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
   const Eigen::Quaterniond turn = from.conjugate() * to;
@@ -61,8 +63,9 @@ void PublisherJudge::Add(int publisher, std::int64_t stamp, const Pose& X_PC) {
 void PublisherJudge::LookForTwoCourses(Publisher* publisher) {
   std::array<Sample, 5>& recent = publisher->recent;
   recent[publisher->count++ % recent.size()] = publisher->last;
-  if (publisher->before.stamp == 0 ||
-      Distance(publisher->before.X, publisher->last.X).whole() < kApart) {
+  const Apart step = Distance(publisher->before.X, publisher->last.X);
+  const bool spins = step.translation < kApart && step.rotation > kLargestTurn;
+  if (publisher->before.stamp == 0 || step.whole() < kApart || spins) {
     publisher->to_and_fro = 0;
     return;
   }

@@ -667,6 +667,46 @@ TEST_F(LinkMotionTest, AnotherParentThanTheUrdfsIsTold) {
   EXPECT_TRUE(Says(sentences, "is this the URDF"));
 }
 
+TEST_F(LinkMotionTest, ABodyThatMovesUnderAnotherNameIsTold) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 400; ++i) {
+    const std::int64_t now = kStart + i * kPeriod;
+    links.Ingest(Transform("odom", "base_footprint", now, BodyPose(0.01 * i)), false);
+    links.Ingest(Joints(now, Travel(0.01 * i)));
+  }
+  links.Finish();
+  const Findings findings = links.MotionFindings("base");
+  const Finding* unconnected = FindKind(findings, "unconnected");
+  ASSERT_NE(unconnected, nullptr);
+  EXPECT_EQ(unconnected->subject, "odom -> base_footprint");
+  EXPECT_NE(unconnected->remedy.find("'base_footprint' to 'base'"), std::string::npos);
+
+  LinkMotion connected(vehicle_, needed_, options_);
+  Drive(&connected, kStart, 400);
+  for (int i = 0; i < 400; ++i)
+    connected.Ingest(Transform("odom", "trailer", kStart + i * kPeriod, BodyPose(0.01 * i)), false);
+  connected.Finish();
+  EXPECT_EQ(FindKind(connected.MotionFindings("odom"), "unconnected"), nullptr);
+}
+
+TEST_F(LinkMotionTest, WhatALeaderDoesIsNotSaidOfItsFollowersToo) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 400; ++i)
+    links.Ingest(Joints(kStart + i * kPeriod, Travel(0.01 * i) + (i == 200 ? 0.02 : 0)));
+  links.Finish();
+  std::string subjects;
+  for (const Finding& finding : links.MotionFindings("base")) subjects += finding.subject + ";";
+  EXPECT_EQ(subjects, "base -> strut;");
+}
+
+TEST_F(LinkMotionTest, APositionThatNoJointCanHaveIsLeftOut) {
+  LinkMotion links(vehicle_, needed_, options_);
+  links.Ingest(Joints(kStart, 1e300));
+  const std::vector<std::string> sentences = links.warnings().Sentences();
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_TRUE(Says(sentences, "1e+300")) << sentences[0];
+}
+
 TEST_F(LinkMotionTest, FramesWithoutACommonRootAreNamedWithTheOption) {
   for (const bool is_node : {false, true}) {
     options_.is_node = is_node;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 #include <random>
+#include <vector>
 
 namespace cosserat_cable {
 namespace {
@@ -229,6 +230,36 @@ TEST(EdgeJudge, StepsOfACoarseEncoderAreNoJumpsAndNoOutliers) {
     for (const double rate : {50.0, 100.0, 500.0}) {
       const std::string kinds = Kinds(Found(EdgeRole::kJoint, {rate, 30, coarse}));
       EXPECT_TRUE(kinds.empty() || kinds == "noise") << kinds << " " << step << " " << rate;
+    }
+  }
+}
+
+TEST(EdgeJudge, ExcursionsOfAnyLengthAreTold) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint})
+    for (int length = 1; length <= 10; ++length) {
+      const double size = role == EdgeRole::kBody ? 0.01 : 0.03;
+      const Findings findings = Found(role, {200, 10, [&](double t) {
+                                               const int i = static_cast<int>(std::lround(200 * t));
+                                               const bool off = i >= 832 && i < 832 + length;
+                                               return At(Rough(t) + (off ? size : 0));
+                                             }});
+      ASSERT_FALSE(findings.empty()) << length;
+      EXPECT_NEAR(findings[0].size, size, 0.1 * size) << length;
+    }
+}
+
+TEST(EdgeJudge, MillimetresForMetresAreTold) {
+  for (const double rate : {20, 50, 200}) {
+    // 5 m/s, and a heave of 20 mm at 1.5 Hz.
+    const auto ride = [](double t) { return At(5 * t + 0.02 * std::sin(2 * M_PI * 1.5 * t)); };
+    const auto heave = [](double t) { return At(20 * std::sin(2 * M_PI * 1.5 * t)); };
+    EXPECT_EQ(Kinds(Found(EdgeRole::kBody, {rate, 10, ride})), "");
+    const auto ride_in_mm = [&](double t) { return At(1e3 * ride(t).p.x()); };
+    for (const auto& wrong : std::vector<std::function<Pose(double)>>{ride_in_mm, heave}) {
+      const Findings findings = Found(EdgeRole::kBody, {rate, 10, wrong});
+      ASSERT_FALSE(findings.empty()) << rate;
+      EXPECT_EQ(findings[0].kind, "unit") << rate;
+      EXPECT_NE(findings[0].remedy.find("millimetres"), std::string::npos);
     }
   }
 }

@@ -33,6 +33,16 @@ TEST(PublisherJudgeTest, EachSampleThatDiffersCountsOnce) {
   }
 }
 
+TEST(PublisherJudgeTest, AWheelThatTurnsNearlyHalfATurnPerSampleIsNoTwoPublishers) {
+  PublisherJudge judge;
+  for (int i = 0; i < kSamples; ++i) {
+    Pose pose;
+    pose.q = Eigen::AngleAxisd(2.9 * i, Eigen::Vector3d::UnitY());
+    judge.Add(0, kInterval * (1 + i), pose);
+  }
+  EXPECT_EQ(judge.two_courses().count, 0u);
+}
+
 TEST(PublisherJudgeTest, TwoThatAgreeAreFine) {
   EXPECT_EQ(Judged({0.1, 0.1}).conflict().count, 0u);
 }

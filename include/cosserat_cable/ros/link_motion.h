@@ -192,6 +192,8 @@ class LinkMotion {
   /// Of recording after the stamp [ns], over all samples or of the edges' first ones.
   std::int64_t UsualDelay(bool at_first) const;
   void AddGapFindings(const std::set<std::string>& above, Findings* findings) const;
+  /// Frames that move and lead to no link, where the vehicle's root stands still.
+  void AddUnconnectedFindings(Findings* findings) const;
   void AddDriftFindings(const std::set<std::string>& above, Findings* findings) const;
   void AddClockFindings(const std::set<std::string>& above, Findings* findings) const;
   void Deliver(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC);

@@ -57,7 +57,7 @@ class JointJudge {
   std::int64_t last_ = 0, base_ = 0;  // stamps of the sample before, and of where velocity begins
   double last_position_ = 0, base_travel_ = 0, travel_ = 0;
 
-  std::uint64_t velocities_ = 0;  // that were judged
+  std::uint64_t samples_ = 0, velocities_ = 0;  // that were judged
   Worst limit_, velocity_, half_turn_, off_axis_, off_turn_;
 };
 
