@@ -22,6 +22,12 @@ int main(int argc, char** argv) {
   paths.follow_clamps = true;
 
   cosserat_cable::Problems problems;
+  cosserat_cable::PlannedOutputs outputs;
+  cosserat_cable::AddReads(paths, &outputs);
+  outputs.WritesFile(json, "json");
+  outputs.WritesFolder(clamps, "clamps", {});
+  outputs.Check(&problems);
+  if (!problems.empty()) json.clear();
   engine.ApplyGravity(&problems);
   const cosserat_cable::Inputs inputs = cosserat_cable::LoadInputs(paths, engine, &problems);
   if (!json.empty() && !cosserat_cable::WriteTextFile(

@@ -10,6 +10,7 @@
 #include "answer.h"
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
+#include "cosserat_cable/console/planned_outputs.h"
 #include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/console/run_program.h"
 #include "cosserat_cable/identification/direct_evaluation.h"
@@ -22,12 +23,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
+void CheckOutputs(const IdentifyRunOptions& options, const MeasurementSet& set,
+                  Problems* problems) {
+  PlannedOutputs outputs;
+  for (const std::string& file : FilesOf(set)) outputs.Reads(file);
+  std::vector<std::string> files = {"identified_cable.yaml", "identification.json", "report.html"};
+  for (const Experiment& experiment : set.experiments)
+    files.push_back("fit/" + experiment.name + ".csv");
+  outputs.WritesFolder(options.output, "output", files);
+  outputs.WritesFile(options.json, "json");
+  outputs.Check(problems);
+}
+
 }  // namespace
 
 ExitCode RunIdentify(const IdentifyRunOptions& options) {
   Problems problems, warnings;
   const MeasurementSet set = LoadMeasurementSet(options.set, &problems);
   if (problems.empty()) CheckPlausibility(set, &problems, &warnings);
+  CheckOutputs(options, set, &problems);
   const auto refuse = [&] {
     problems.SortByLine();
     std::cerr << problems.ToString();

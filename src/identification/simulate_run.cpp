@@ -16,6 +16,7 @@
 #include "cosserat_cable/cable/section_file.h"
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/output_file.h"
+#include "cosserat_cable/console/planned_outputs.h"
 #include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/fit/start_estimate.h"
 #include "cosserat_cable/input/number_text.h"
@@ -93,6 +94,18 @@ nlohmann::json RmsOf(const Job& job) {
   return rms;
 }
 
+void CheckOutputs(const SimulateRunOptions& options, const MeasurementSet& set,
+                  Problems* problems) {
+  PlannedOutputs outputs;
+  for (const std::string& file : FilesOf(set)) outputs.Reads(file);
+  outputs.Reads(options.cable);
+  std::vector<std::string> files = {"simulated_cable.yaml"};
+  for (const Experiment& experiment : set.experiments) files.push_back(experiment.name + ".csv");
+  outputs.WritesFolder(options.output, "output", files);
+  outputs.WritesFile(options.json, "json");
+  outputs.Check(problems);
+}
+
 }  // namespace
 
 ExitCode RunSimulate(const SimulateRunOptions& options) {
@@ -100,6 +113,7 @@ ExitCode RunSimulate(const SimulateRunOptions& options) {
   Problems problems;
   CheckOptions(options, &problems);
   const MeasurementSet set = LoadMeasurementSet(options.set, &problems);
+  CheckOutputs(options, set, &problems);
   CableKeys file;
   if (!options.cable.empty()) file = LoadSpecimenFile(options.cable, &problems);
   std::vector<Job> jobs;

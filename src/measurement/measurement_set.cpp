@@ -1,6 +1,7 @@
 #include "cosserat_cable/measurement/measurement_set.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 
 namespace cosserat_cable {
@@ -31,6 +32,20 @@ double MedianInterval(const std::vector<double>& t) {
   const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
   std::nth_element(intervals.begin(), middle, intervals.end());
   return *middle;
+}
+
+std::vector<std::string> FilesOf(const MeasurementSet& set) {
+  std::vector<std::string> files = {set.file};
+  const auto add = [&](const std::string& name) {
+    if (!name.empty()) files.push_back((std::filesystem::path(set.folder) / name).string());
+  };
+  for (const Experiment& experiment : set.experiments) {
+    add(experiment.record.file);
+    add(experiment.load.file);
+    for (const EndCondition* end : {&experiment.a, &experiment.b})
+      if (end->motion) add(end->motion->file);
+  }
+  return files;
 }
 
 double Experiment::start_time() const {

@@ -61,6 +61,7 @@ MeasurementSet LoadMeasurementSet(const std::string& path, Problems* problems) {
   std::error_code ignored;  // what cannot be asked about cannot be opened either
   const fs::path file =
       fs::is_directory(path, ignored) ? fs::path(path) / kSetFile : fs::path(path);
+  set.file = file.string();
   set.folder = file.has_parent_path() ? file.parent_path().string() : ".";
   Problems found;
   const YamlValue root = LoadYamlFile(file.string(), &found);

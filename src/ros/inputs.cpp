@@ -205,6 +205,14 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
 
 }  // namespace
 
+void AddReads(const InputPaths& paths, PlannedOutputs* outputs) {
+  outputs->Reads(paths.vehicle);
+  outputs->Reads(paths.cables);
+  for (const std::string& section : paths.sections)
+    outputs->Reads(section.substr(section.find('=') + 1));
+  for (const std::string& bag : paths.bags) outputs->Reads(bag);
+}
+
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems) {
   Inputs inputs;
   for (const std::string& problem : options.Check()) problems->Add("", problem);

@@ -16,6 +16,7 @@
 #include "cosserat_cable/cable/cable_check.h"
 #include "cosserat_cable/cable/cable_simulation.h"
 #include "cosserat_cable/cable/contact_stiffness.h"
+#include "cosserat_cable/console/planned_outputs.h"
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/input/yaml_value.h"
@@ -259,12 +260,11 @@ void CheckOutputs(const ModesOptions& options, Problems* problems) {
     problems->Add(
         "", 0, "count",
         "got " + std::to_string(options.count) + ", expected 1 to " + std::to_string(kMostModes));
-  std::error_code ignored;
-  if (!options.output.empty() && fs::exists(options.output, ignored) &&
-      !fs::is_directory(options.output, ignored))
-    problems->Add(options.output, 0, "output", "got a file, expected a folder");
-  if (!options.json.empty() && fs::is_directory(options.json, ignored))
-    problems->Add(options.json, 0, "json", "got a folder, expected a file");
+  PlannedOutputs outputs;
+  AddReads({options.vehicle, options.cables, options.sections, options.bags}, &outputs);
+  outputs.WritesFolder(options.output, "output", {"modes.json", "cables.yaml"});
+  outputs.WritesFile(options.json, "json");
+  outputs.Check(problems);
 }
 
 // A cable that lies too deep in a body is not where it would rest.

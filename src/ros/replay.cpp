@@ -11,6 +11,7 @@
 
 #include "bag_file.h"
 #include "cosserat_cable/console/interrupt.h"
+#include "cosserat_cable/console/planned_outputs.h"
 #include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/bag_sink.h"
@@ -26,32 +27,19 @@ fs::path FolderOf(const std::string& path) {
   return folder.empty() ? fs::path(".") : folder;
 }
 
-void CheckFolder(const std::string& path, const char* key, Problems* problems) {
-  const fs::path folder = FolderOf(path);
-  std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) {
-    problems->Add(path, 0, key, "the folder '" + folder.string() + "' does not exist");
-  } else if (access(folder.c_str(), W_OK) != 0) {
-    problems->Add(path, 0, key, "the folder '" + folder.string() + "' is not writable");
-  } else if (fs::is_directory(path, ignored)) {
-    problems->Add(path, 0, key, "got a folder, expected a file");
-  }
+// The effective configuration, beside the bag.
+std::string ConfigurationOf(const std::string& output) {
+  return (fs::path(output).parent_path() / fs::path(output).stem()).string() + ".cables.yaml";
 }
 
 void CheckOutputs(const ReplayOptions& options, Problems* problems) {
   if (options.inputs.bags.empty()) problems->Add("", 0, "bag", "no recording is given");
-  CheckFolder(options.output, "output", problems);
-  if (!options.json.empty()) CheckFolder(options.json, "json", problems);
-  for (const std::string& bag : options.inputs.bags) {
-    std::error_code ignored;
-    if (fs::equivalent(bag, options.output, ignored)) {
-      problems->Add(options.output, 0, "output", "is the input bag itself");
-    }
-  }
-}
-
-std::string WithoutExtension(const std::string& path) {
-  return (fs::path(path).parent_path() / fs::path(path).stem()).string();
+  PlannedOutputs outputs;
+  AddReads(options.inputs, &outputs);
+  outputs.WritesFile(options.output, "output");
+  outputs.WritesFile(ConfigurationOf(options.output), "output");
+  outputs.WritesFile(options.json, "json");
+  outputs.Check(problems);
 }
 
 void Say(CableEngine* engine) {
@@ -160,7 +148,7 @@ ExitCode RunReplay(ReplayOptions options) {
       code = kExitFileTrouble;
     }
     writer.Close();
-    const std::string configuration = WithoutExtension(options.output) + ".cables.yaml";
+    const std::string configuration = ConfigurationOf(options.output);
     if (!WriteTextFile(configuration, ConfigurationHead(options, *inputs.survey) +
                                           WriteCableFile(inputs.cables))) {
       std::cerr << configuration << ": could not be written\n";

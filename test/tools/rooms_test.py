@@ -13,7 +13,7 @@ PACKAGE = 'cosserat_cable'
 BELOW = {
     'math': set(),
     'input': {'math'},
-    'console': set(),
+    'console': {'input'},
     'rod': {'math'},
     'contact': {'math', 'input'},
     'cable': {'rod', 'contact', 'input', 'math'},

@@ -133,6 +133,7 @@ struct Experiment {
 };
 
 struct MeasurementSet {
+  std::string file;  ///< that it was read from
   std::string folder;
   CableKeys cable;  ///< and the faults of all experiments that do not give their own
   SourceMark cable_mark;
@@ -145,6 +146,9 @@ struct MeasurementSet {
 /// that are not there or that no channel names. Where `problems` grew, the result is not to be
 /// used.
 MeasurementSet LoadMeasurementSet(const std::string& path, Problems* problems);
+
+/// All files that were read: the set's own, records, motions, loads.
+std::vector<std::string> FilesOf(const MeasurementSet& set);
 
 /// What does not look like a measurement although it can be read, said so that a user understands
 /// it: frozen or clipped samples, gaps, positions farther from clamp a than the cable is long

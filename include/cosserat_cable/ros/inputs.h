@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cosserat_cable/cable/cable_model.h"
+#include "cosserat_cable/console/planned_outputs.h"
 #include "cosserat_cable/ros/bag_reader.h"
 #include "cosserat_cable/ros/cable_engine.h"
 #include "cosserat_cable/vehicle/vehicle_model.h"
@@ -23,6 +24,9 @@ struct InputPaths {
   double duration = 0;            ///< [s]; 0: to the end
   bool follow_clamps = false;     ///< through the whole recording, not only at its first instant
 };
+
+/// What a run with these inputs reads.
+void AddReads(const InputPaths& paths, PlannedOutputs* outputs);
 
 /// What the bags will do to the cables.
 struct BagSurvey {
