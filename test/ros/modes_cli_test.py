@@ -70,11 +70,12 @@ class Modes(CommandLine):
                 self.assertIn(word, text)
             self.assertEqual(os.listdir(self.output_folder), [])
 
-    def test_modes_says_what_could_not_be_written(self):
-        code, text = run('cable_modes', SWEEP_YAML, '--vehicle', SWEEP_URDF, '--json',
-                         self.path('no/such/folder.json'))
-        self.assertEqual(code, 4, text)
-        self.assertIn('could not be written', text)
+    def test_modes_says_at_once_what_cannot_be_written(self):
+        for path, why in ((self.path('no/such/folder.json'), 'does not exist'),
+                          ('/dev/null', 'got a device or pipe')):
+            code, text = run('cable_modes', SWEEP_YAML, '--vehicle', SWEEP_URDF, '--json', path)
+            self.assertEqual(code, 2, text)
+            self.assertIn(why, text)
 
 
 if __name__ == '__main__':
