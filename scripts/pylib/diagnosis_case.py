@@ -109,14 +109,25 @@ def apart(path, found, true):
     return abs(math.remainder(found - true, turn) if turn else found - true)
 
 
+def as_one_section(values):
+    """A section whose first axis is the softer one is that with the other first, a quarter turned."""
+    values = dict(values)
+    difference, roll = 'extensions.anisotropy.difference', 'extensions.anisotropy.roll'
+    if values.get(difference) and values[difference][0] < 0:
+        values[difference] = [-values[difference][0], values[difference][1]]
+        if values.get(roll):
+            values[roll] = [values[roll][0] + math.pi / 2, values[roll][1]]
+    return values
+
+
 def covered(truth, verdict):
     """{path: whether the interval holds the truth} of the extended cable's parameters."""
     known = dict(truth['parameters'], **truth['effect_parameters'])
-    result = {}
-    for path, value in ((verdict.get('extended') or {}).get('parameters') or {}).items():
-        if value is not None and path in known and known[path] != 0:
-            result[path] = apart(path, value[0], known[path]) <= NORMAL_95 * value[1]
-    return result
+    known = {path: value[0] for path, value in
+             as_one_section({path: [value, 0] for path, value in known.items()}).items()}
+    found = as_one_section((verdict.get('extended') or {}).get('parameters') or {})
+    return {path: apart(path, value[0], known[path]) <= NORMAL_95 * value[1]
+            for path, value in found.items() if value is not None and known.get(path)}
 
 
 def judgement(truth, verdict):

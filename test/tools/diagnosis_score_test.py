@@ -193,6 +193,26 @@ class Score(unittest.TestCase):
         self.assertEqual(rows['null_seed1_snr40']['judgement'], 'unmade')
 
 
+class Covered(unittest.TestCase):
+
+    def hits(self, true, found):
+        truth = {'parameters': {}, 'effect_parameters': true}
+        return diagnosis_case.covered(truth, {'extended': {'parameters': found}})
+
+    def test_an_angle_comes_round_again(self):
+        path = 'extensions.contact.plane.azimuth'
+        self.assertEqual(self.hits({path: -3.1}, {path: [3.19, 0.01]}), {path: True})
+        self.assertEqual(self.hits({path: -3.1}, {path: [3.1, 0.01]}), {path: False})
+
+    def test_a_section_may_be_named_by_either_axis(self):
+        difference, roll = 'extensions.anisotropy.difference', 'extensions.anisotropy.roll'
+        true = {difference: 0.02, roll: 0.3}
+        self.assertEqual(self.hits(true, {difference: [-0.02, 1e-4], roll: [0.3 - 1.5708, 1e-3]}),
+                         {difference: True, roll: True})
+        self.assertEqual(self.hits(true, {difference: [-0.02, 1e-4], roll: [0.3, 1e-3]}),
+                         {difference: True, roll: False})
+
+
 class Binomial(unittest.TestCase):
 
     def test_intervals_of_the_tables(self):  # R: binom.test
