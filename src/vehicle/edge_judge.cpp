@@ -167,8 +167,9 @@ struct EdgeJudge::Impl {
     return IsEncoder(channel) &&
            Singles(channel).outliers.size < kFlip * Singles(channel).steps.size;
   }
-  Finding Start(const char* kind, const MotionChannel::Tally& tally) const;
-  Finding Start(const char* kind, const OutlierJudge::Tally& tally) const;
+  /// Of a channel's events, or of single samples.
+  template <class Tally>
+  Finding Start(const char* kind, const Tally& tally) const;
   std::string SizeText(const MotionChannel* channel, double size) const {
     return channel == &translation ? Printed("%.3g mm", 1e3 * size)
                                    : Printed("%.3g deg", size * 180 / M_PI);
@@ -278,17 +279,8 @@ void EdgeJudge::Impl::KeepWaiting() {
   waiting.clear();
 }
 
-Finding EdgeJudge::Impl::Start(const char* kind, const MotionChannel::Tally& tally) const {
-  Finding finding;
-  finding.kind = kind;
-  finding.count = tally.count;
-  finding.first = tally.first;
-  finding.worst = tally.worst;
-  finding.size = tally.size;
-  return finding;
-}
-
-Finding EdgeJudge::Impl::Start(const char* kind, const OutlierJudge::Tally& tally) const {
+template <class Tally>
+Finding EdgeJudge::Impl::Start(const char* kind, const Tally& tally) const {
   Finding finding;
   finding.kind = kind;
   finding.count = tally.count;
