@@ -255,7 +255,14 @@ class UrdfCheck {
     const std::vector<double> lower = CheckNumbers(*limit, key, "lower", 1, Range::kFinite, false);
     const std::vector<double> upper = CheckNumbers(*limit, key, "upper", 1, Range::kFinite, false);
     const double from = lower.empty() ? 0 : lower[0], to = upper.empty() ? 0 : upper[0];
-    if (from <= to) return;
+    if (from < to) return;
+    if (from == to) {
+      Warn(*limit, key,
+           "got " + FormatRounded(from, 6) +
+               " for lower and upper, which leaves no way to move: its positions are not judged; "
+               "say how far it goes");
+      return;
+    }
     Warn(*limit, key,
          "got lower " + FormatRounded(from, 6) + " and upper " + FormatRounded(to, 6) +
              ", expected lower to be no more than upper: its positions are not judged; are they "

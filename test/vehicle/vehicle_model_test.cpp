@@ -276,7 +276,8 @@ TEST(VehicleProblems, LimitsThatSayNothingAreWarnedOfWhereTheyAreUsed) {
   EXPECT_CONTAINS(warnings("revolute", ""), "FILE:3: joint[j].limit: is missing");
   EXPECT_CONTAINS(warnings("prismatic", ""), "FILE:3: joint[j].limit: is missing");
   EXPECT_EQ(warnings("continuous", ""), "");
-  EXPECT_EQ(warnings("revolute", "<limit effort=\"1\" velocity=\"1\"/>"), "");
+  EXPECT_CONTAINS(warnings("revolute", "<limit effort=\"1\" velocity=\"1\"/>"),
+                  "FILE:4: joint[j].limit: got 0 for lower and upper");
   EXPECT_EQ(warnings("revolute", "<limit lower=\"-1\" upper=\"1\" effort=\"1\" velocity=\"1\"/>"),
             "");
 }
