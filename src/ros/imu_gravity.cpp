@@ -112,11 +112,22 @@ std::vector<std::string> ImuGravityHints(const std::vector<std::string>& paths,
       std::string frame = WithoutSlash(sensor.frame);
       if (!prefix.empty() && frame.compare(0, prefix.size(), prefix) == 0)
         frame = frame.substr(prefix.size());
-      if (frame.empty()) continue;
+      if (sensor.samples.size() < kFewestSamples) continue;
+      const auto cannot = [&](const std::string& why) {
+        hints.push_back("gravity cannot be held against " + topic + ": " + why);
+      };
+      if (frame.empty()) {
+        cannot("its messages name no frame");
+        continue;
+      }
       std::size_t count = 0;
       const Eigen::Vector3d felt =
           MeanInWorld(sensor, frame, bags, vehicle, survey, options, &count);
-      if (count < kFewestSamples) continue;
+      if (count < kFewestSamples) {
+        cannot("its frame '" + frame + "' cannot be followed from '" + survey.world +
+               "'; record its transform, or add it to the URDF");
+        continue;
+      }
       const std::string hint =
           GravityHint(options.gravity_W, survey.world, felt, "the mean of " + topic);
       if (!hint.empty()) hints.push_back(hint);

@@ -10,8 +10,7 @@
 namespace cosserat_cable {
 
 /// A sentence for each sensor_msgs/Imu topic whose mean over the recording's beginning contradicts
-/// the gravity of `options`. Topics in frames that cannot be followed from `survey.world` say
-/// nothing.
+/// the gravity of `options`, or whose frame cannot be followed from `survey.world`.
 std::vector<std::string> ImuGravityHints(const std::vector<std::string>& paths,
                                          const BagReader& bags, const VehicleModel& vehicle,
                                          const BagSurvey& survey, const EngineOptions& options);

@@ -59,7 +59,7 @@ class Options(unittest.TestCase):
             file.write(LOOM.format(b=b))
 
     def record(self, name='in.bag', joints='/joint_states', tf='/tf', frame='odom', prefix='',
-               stamped=True, angle=lambda t: 0.0, imu=None, count=101, start=10.0,
+               stamped=True, angle=lambda t: 0.0, imu=None, imu_frame='imu_link', count=101, start=10.0,
                turn=(0.0, 0.0, 0.0, 1.0)):
         """A bag of 1 s: what is None is not in it."""
         with rosbag.Bag(self.path(name), 'w') as bag:
@@ -80,7 +80,7 @@ class Options(unittest.TestCase):
                 if imu:
                     message = Imu()
                     message.header.stamp = time
-                    message.header.frame_id = prefix + 'imu_link'
+                    message.header.frame_id = prefix + imu_frame
                     a = message.linear_acceleration
                     a.x, a.y, a.z = imu
                     bag.write('/imu/data', message, time)
@@ -149,6 +149,10 @@ class Options(unittest.TestCase):
         code, text = self.check(self.path('no.bag'), '--gravity', '1,2')
         self.assertIn('gravity: got 2 numbers', text)
         self.assertIn('no such bag', text)
+
+    def test_an_imu_of_an_unknown_frame_is_told(self):
+        _, text = self.check(self.record(imu=(0, 0, 9.81), imu_frame='box'))
+        self.assertIn("gravity cannot be held against /imu/data: its frame 'box'", text)
 
     def test_an_imu_suggests_gravity(self):
         code, text = self.check(self.record(imu=(0.3, 0.1, -9.8)))
