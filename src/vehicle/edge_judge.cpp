@@ -28,6 +28,11 @@ constexpr double kTooClose = 0.25;
 constexpr std::uint64_t kEventsOfOne = 4;
 // Of an encoder's step.
 constexpr double kFlip = 1.5;
+// A value that changes by one step of its grid and back with each sample accelerates by so much, in
+// steps per interval squared.
+constexpr double kToggles = 2;
+// Smoothing takes nothing off a motion that is slower than its cutoff by this factor.
+constexpr double kKeeps = 1.5;
 // Rounding of poses that do not move [m], [rad].
 constexpr double kStill = 1e-6;
 // What smoothing may leave of the noise [m/s^2], [rad/s^2]: little beside gravity.
@@ -159,14 +164,30 @@ struct EdgeJudge::Impl {
   const OutlierJudge::Found& Singles(const MotionChannel& channel) const {
     return &channel == &translation ? singles.translation() : singles.rotation();
   }
+  /// The step that a coarse sensor or rounding leaves; 0: none. Corrections may have one size too.
+  double Quantum(const MotionChannel& channel) const {
+    return role == EdgeRole::kAboveVehicle ? 0 : channel.step();
+  }
   /// A joint's steps of one size are those of its encoder; so are outliers that are no larger.
   bool IsEncoder(const MotionChannel& channel) const {
-    return role == EdgeRole::kJoint && Singles(channel).HasQuantum();
+    const OutlierJudge::Found& found = Singles(channel);
+    return (role == EdgeRole::kJoint && found.HasQuantum()) ||
+           found.steps.size < kFlip * Quantum(channel);
   }
   bool IsEncoderFlips(const MotionChannel& channel) const {
-    return IsEncoder(channel) &&
-           Singles(channel).outliers.size < kFlip * Singles(channel).steps.size;
+    const OutlierJudge::Found& found = Singles(channel);
+    return (IsEncoder(channel) && found.outliers.size < kFlip * found.steps.size) ||
+           found.outliers.size < kFlip * Quantum(channel);
   }
+  /// Jumps that are no steps of a coarse sensor.
+  MotionChannel::Tally Jumps(const MotionChannel& channel) const;
+  /// Whether the noise is that of values which toggle between two steps.
+  bool IsQuantisation(const MotionChannel& channel) const;
+  /// Whether it vibrates fast, by more than its steps may look like.
+  bool Vibrates(const MotionChannel& channel) const;
+  double Interval() const { return period() * std::max(stride, 1); }
+  /// How to smooth noise of so much acceleration [/s^2].
+  std::string SmoothText(const MotionChannel& channel, double noise) const;
   /// Of a channel's events, or of single samples.
   template <class Tally>
   Finding Start(const char* kind, const Tally& tally) const;
@@ -182,6 +203,7 @@ struct EdgeJudge::Impl {
   void ReportAccelerations(Findings* findings) const;
   void ReportLateness(Findings* findings) const;
   void ReportNoise(Findings* findings) const;
+  void ReportQuantisation(Findings* findings) const;
 };
 
 EdgeJudge::EdgeJudge(EdgeRole role, double max_gap)
@@ -235,6 +257,8 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
     const Eigen::Vector3d d = sample.X.p - last.X.p;
     const Eigen::Vector3d turn = Turn(last.X.q, sample.X.q);
     course.Add(sample.stamp, sample.X.p);
+    translation.AddToGrid(d);
+    rotation.AddToGrid(turn);
     moves = moves || d.squaredNorm() > kStill * kStill || turn.squaredNorm() > kStill * kStill;
     if (h <= longest) {
       period_sum += h;
@@ -302,16 +326,31 @@ bool EdgeJudge::Impl::IsExplained(const MotionChannel& channel, double accelerat
   return acceleration < kFarBeyond * usual;
 }
 
+MotionChannel::Tally EdgeJudge::Impl::Jumps(const MotionChannel& channel) const {
+  MotionChannel::Tally jumps = channel.jumps();
+  if (Quantum(channel) == 0) jumps.Add(channel.grid_jumps());
+  return jumps;
+}
+
+bool EdgeJudge::Impl::IsQuantisation(const MotionChannel& channel) const {
+  return channel.noise().size < kToggles * Quantum(channel) / (Interval() * Interval());
+}
+
+bool EdgeJudge::Impl::Vibrates(const MotionChannel& channel) const {
+  return IsHabit(channel.vibration(), channel.blocks()) &&
+         channel.vibration().size > kToggles * Quantum(channel) / (Interval() * Interval());
+}
+
 void EdgeJudge::Impl::ReportJumps(Findings* findings) const {
   const MotionChannel* channel = Worse(
       [this](const auto& c) {
-        return c.jumps().count > 0 && !IsSingle(c, c.jumps().count) &&
-               !IsExplained(c, c.jumps().acceleration);
+        const MotionChannel::Tally jumps = Jumps(c);
+        return jumps.count > 0 && !IsSingle(c, jumps.count) && !IsExplained(c, jumps.acceleration);
       },
-      [](const auto& c) { return c.jumps().size / c.limits().jump; });
+      [this](const auto& c) { return Jumps(c).size / c.limits().jump; });
   if (channel) {
-    ReportJump(channel, Start("jump", channel->jumps()), channel->limits().jump,
-               channel->jumps().acceleration, findings);
+    const MotionChannel::Tally jumps = Jumps(*channel);
+    ReportJump(channel, Start("jump", jumps), channel->limits().jump, jumps.acceleration, findings);
     return;
   }
   // Smaller ones that stand out all the same.
@@ -386,7 +425,7 @@ void EdgeJudge::Impl::ReportAccelerations(Findings* findings) const {
   // A jump is an acceleration too: it is told once.
   const MotionChannel* channel = Worse(
       [this](const auto& c) {
-        return c.accelerations().count > 0 && c.jumps().count == 0 && Singles(c).steps.count == 0 &&
+        return c.accelerations().count > 0 && Jumps(c).count == 0 && Singles(c).steps.count == 0 &&
                !IsSingle(c, c.accelerations().count) &&
                !IsExplained(c, c.accelerations().acceleration);
       },
@@ -423,9 +462,27 @@ void EdgeJudge::Impl::ReportLateness(Findings* findings) const {
   findings->push_back(std::move(finding));
 }
 
+std::string EdgeJudge::Impl::SmoothText(const MotionChannel& channel, double noise) const {
+  // White noise of positions, sigma^2 = a^2 h^4 / 6 in each sample, below a cutoff f:
+  //   a_left = (2 pi)^2 f^2.5 sigma sqrt(2 h / 5).
+  const double h = Interval();
+  const double sigma = noise * h * h / std::sqrt(6.0);
+  const double all =
+      std::pow(kTolerableNoise / (4 * M_PI * M_PI * sigma * std::sqrt(0.4 * h)), 0.4);
+  const double most = 0.2 / period();
+  const double cutoff = RoundFrequency(std::min(all, most));
+  const double motion = channel.vibration_frequency();
+  if (cutoff >= kKeeps * motion || !Vibrates(channel))
+    return "--smooth " + Printed("%g", cutoff) + " leaves little of it";
+  const std::string moves = "it also vibrates at " + Printed("%.2g Hz", motion);
+  if (kKeeps * motion > most)
+    return moves + ", which --smooth HZ would take out too: measure it with less noise, or faster";
+  return moves + ": --smooth " + Printed("%.2g", kKeeps * motion) + " keeps that";
+}
+
 void EdgeJudge::Impl::ReportNoise(Findings* findings) const {
   const MotionChannel* channel =
-      Worse([](const auto& c) { return IsHabit(c.noise(), c.blocks()); },
+      Worse([this](const auto& c) { return IsHabit(c.noise(), c.blocks()) && !IsQuantisation(c); },
             [](const auto& c) { return c.noise().size / c.limits().noise; });
   if (!channel) return;
   Finding finding = Start("noise", channel->noise());
@@ -433,15 +490,32 @@ void EdgeJudge::Impl::ReportNoise(Findings* findings) const {
   finding.unit = Unit(channel) + std::string("/s^2");
   finding.what = "accelerates by " + Printed("%.3g ", finding.size) + finding.unit +
                  " rms back and forth from sample to sample";
-  // White noise of positions, sigma^2 = a^2 h^4 / 6 in each sample, below a cutoff f:
-  //   a_left = (2 pi)^2 f^2.5 sigma sqrt(2 h / 5).
-  const double h = period() * std::max(stride, 1);
-  const double sigma = finding.size * h * h / std::sqrt(6.0);
-  const double all =
-      std::pow(kTolerableNoise / (4 * M_PI * M_PI * sigma * std::sqrt(0.4 * h)), 0.4);
   finding.remedy =
-      "is it noise, are its stamps late, or does it vibrate faster than it was sampled? --smooth " +
-      Printed("%g", RoundFrequency(std::min(all, 0.2 / period()))) + " leaves little of it";
+      "is it noise, are its stamps late, or does it vibrate faster than it was sampled? " +
+      SmoothText(*channel, finding.size);
+  findings->push_back(std::move(finding));
+}
+
+// Of a coarse sensor, where cables feel its steps.
+void EdgeJudge::Impl::ReportQuantisation(Findings* findings) const {
+  const auto matters = [this](const auto& c) {
+    if (Quantum(c) == 0) return false;
+    return (IsHabit(c.noise(), c.blocks()) && IsQuantisation(c)) || c.grid_jumps().count > 0;
+  };
+  const MotionChannel* channel =
+      Worse(matters, [this](const auto& c) { return Quantum(c) / c.limits().jump; });
+  if (!channel) return;
+  const bool all_the_time = IsHabit(channel->noise(), channel->blocks());
+  Finding finding = Start("quantisation", all_the_time ? channel->noise() : channel->grid_jumps());
+  const double acceleration = all_the_time ? finding.size : channel->grid_jumps().acceleration;
+  finding.size = Quantum(*channel);
+  finding.limit = channel->limits().noise * Interval() * Interval() / kToggles;
+  finding.unit = Unit(channel);
+  finding.what = "moves in steps of " + SizeText(channel, finding.size) +
+                 ": it is quantised, and accelerates by " + Printed("%.3g ", acceleration) +
+                 finding.unit + "/s^2" + (all_the_time ? " rms" : "") + " from step to step";
+  finding.remedy = "record it with more digits, or a finer sensor; " +
+                   SmoothText(*channel, std::max(acceleration, channel->limits().noise));
   findings->push_back(std::move(finding));
 }
 
@@ -458,6 +532,7 @@ Findings EdgeJudge::Report(const std::string& subject, const std::string& topic)
   whole.ReportAccelerations(&findings);
   whole.ReportLateness(&findings);
   whole.ReportNoise(&findings);
+  whole.ReportQuantisation(&findings);
   for (Finding& finding : findings) {
     finding.subject = subject;
     finding.topic = topic;

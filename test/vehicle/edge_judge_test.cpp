@@ -229,9 +229,107 @@ TEST(EdgeJudge, StepsOfACoarseEncoderAreNoJumpsAndNoOutliers) {
     };
     for (const double rate : {50.0, 100.0, 500.0}) {
       const std::string kinds = Kinds(Found(EdgeRole::kJoint, {rate, 30, coarse}));
-      EXPECT_TRUE(kinds.empty() || kinds == "noise") << kinds << " " << step << " " << rate;
+      EXPECT_TRUE(kinds.empty() || kinds == "quantisation") << kinds << " " << step << " " << rate;
     }
   }
+}
+
+TEST(EdgeJudge, ACoarseSensorIsCalledQuantised) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0, 1);
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 200.0, 500.0}) {
+      for (const double millimetres : {1.0, 2.0, 5.0}) {
+        // 1 mm and 0.1 deg, and coarser: slowly moving, around one step, and at rest but for noise.
+        const double step = 1e-3 * millimetres, turn = 0.1 * millimetres * M_PI / 180;
+        const auto on_grid = [&](double x) {
+          return At(step * std::round(x), turn * std::round(x));
+        };
+        const std::vector<std::function<Pose(double)>> motions = {
+            [&](double t) { return on_grid(30 * std::sin(2 * M_PI * 0.2 * t)); },
+            [&](double t) { return on_grid(30 * std::sin(2 * M_PI * 2 * t)); },
+            [&](double t) { return on_grid(0.3 + 0.3 * std::sin(2 * M_PI * 0.2 * t)); },
+            [&](double) { return on_grid(0.4 + 0.1 * noise(random)); }};
+        for (std::size_t i = 0; i < motions.size(); ++i) {
+          const std::string kinds = Kinds(Found(role, {rate, 20, motions[i]}));
+          EXPECT_TRUE(kinds.empty() || kinds == "quantisation")
+              << kinds << ", motion " << i << " at " << rate << " Hz in " << millimetres << " mm";
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeJudge, QuantisationIsToldWithItsStepAndWhatTakesItOut) {
+  const Findings findings =
+      Found(EdgeRole::kBody,
+            {100, 20, [](double t) { return At(2e-3 * std::round(15 * std::sin(12 * t))); }});
+  ASSERT_EQ(Kinds(findings), "quantisation");
+  EXPECT_NEAR(findings[0].size, 2e-3, 1e-9);
+  EXPECT_NE(findings[0].what.find("in steps of 2 mm"), std::string::npos) << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("--smooth "), std::string::npos) << findings[0].remedy;
+}
+
+TEST(EdgeJudge, AJumpOfACoarseSensorIsStillAJump) {
+  const Findings findings =
+      Found(EdgeRole::kBody, {50, 20, [](double t) {
+                                const double x = 0.03 * std::sin(1.3 * t) + (t > 7.999 ? 0.1 : 0);
+                                return At(1e-3 * std::round(1e3 * x));
+                              }});
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0].kind, "jump");
+  EXPECT_EQ(findings[0].count, 1u);
+  EXPECT_EQ(findings[0].worst, Stamp(kStart + 8));
+  // Off by one step at most.
+  EXPECT_NEAR(findings[0].size, 0.1, 1.1e-3);
+}
+
+TEST(EdgeJudge, AUniformMotionIsNotQuantised) {
+  // It stands still, goes off, and jumps by a step and a half of what looks like its grid.
+  const auto goes = [](double t) { return At((t < 3 ? 0 : t - 3) + (t > 6.999 ? 0.015 : 0)); };
+  EXPECT_EQ(Kinds(Found(EdgeRole::kBody, {100, 10, goes})), "jump");
+}
+
+// ---- Vibrations -------------------------------------------------------------------------------
+
+TEST(EdgeJudge, FastVibrationsAreNoNoiseAndNoJumps) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {100.0, 125.0, 150.0, 200.0, 500.0}) {
+      for (const double f : {20.0, 30.0, 35.0, 40.0}) {
+        const auto sine = [&](double t) { return At(3 * t + 3e-3 * std::sin(2 * M_PI * f * t)); };
+        const auto turns = [&](double t) { return At(0, 6e-3 * std::sin(2 * M_PI * f * t)); };
+        EXPECT_EQ(Kinds(Found(role, {rate, 10, sine})), "") << f << " at " << rate;
+        EXPECT_EQ(Kinds(Found(role, {rate, 10, turns})), "") << f << " at " << rate;
+      }
+      // From 10 to 40 Hz within 20 s, and two at once.
+      const auto chirp = [](double t) {
+        return At(2e-3 * std::sin(2 * M_PI * (10 * t + 0.75 * t * t)));
+      };
+      const auto both = [](double t) {
+        return At(1e-3 * std::sin(2 * M_PI * 31 * t) + 1e-3 * std::sin(2 * M_PI * 37 * t));
+      };
+      EXPECT_EQ(Kinds(Found(role, {rate, 20, chirp})), "") << rate;
+      EXPECT_EQ(Kinds(Found(role, {rate, 10, both})), "") << rate;
+    }
+  }
+}
+
+TEST(EdgeJudge, SmoothingThatIsAdvisedKeepsAVibration) {
+  // 35 Hz for the first 5 s, then noise.
+  std::mt19937 random(10);
+  std::normal_distribution<double> noise(0, 1e-3);
+  const auto both = [&](double t) {
+    return At(t < 5 ? 3e-3 * std::sin(2 * M_PI * 35 * t) : noise(random));
+  };
+  const Findings slow = Found(EdgeRole::kBody, {100, 10, both});
+  ASSERT_EQ(Kinds(slow), "noise");
+  EXPECT_NE(slow[0].remedy.find("vibrates at 35 Hz, which --smooth HZ would take out too"),
+            std::string::npos)
+      << slow[0].remedy;
+  const Findings fast = Found(EdgeRole::kBody, {500, 10, both});
+  ASSERT_EQ(Kinds(fast), "noise");
+  EXPECT_NE(fast[0].remedy.find("--smooth 5"), std::string::npos) << fast[0].remedy;
+  EXPECT_NE(fast[0].remedy.find("keeps that"), std::string::npos) << fast[0].remedy;
 }
 
 TEST(EdgeJudge, ExcursionsOfAnyLengthAreTold) {
