@@ -427,6 +427,7 @@ void LinkMotion::Finish() {
     smoother.Finish(
         [&, name = child](std::int64_t stamp, const Pose& X) { Deliver(edge, name, stamp, X); });
   }
+  if (judge_) judge_->Finish();
   tree_.Finish();
 }
 

@@ -192,10 +192,11 @@ struct EdgeJudge::Impl {
   template <class Tally>
   Finding Start(const char* kind, const Tally& tally) const;
   std::string SizeText(const MotionChannel* channel, double size) const {
-    return channel == &translation ? Printed("%.3g mm", 1e3 * size)
-                                   : Printed("%.3g deg", size * 180 / M_PI);
+    if (channel == &rotation) return Printed("%.3g deg", size * 180 / M_PI);
+    return size < 1 ? Printed("%.3g mm", 1e3 * size) : Printed("%.3g m", size);
   }
   void ReportOutliers(Findings* findings) const;
+  void ReportEnds(Findings* findings) const;
   void ReportStamps(Findings* findings) const;
   void ReportJump(const MotionChannel* channel, Finding finding, double limit, double acceleration,
                   Findings* findings) const;
@@ -247,6 +248,8 @@ void EdgeJudge::Restart() {
   impl_->singles.Restart();
   impl_->course.Restart();
 }
+
+void EdgeJudge::Finish() { impl_->singles.Finish(); }
 
 void EdgeJudge::Add(std::int64_t stamp, const Pose& X_PC) { impl_->Add({stamp, X_PC}); }
 
@@ -316,7 +319,8 @@ Finding EdgeJudge::Impl::Start(const char* kind, const Tally& tally) const {
 
 bool EdgeJudge::Impl::IsSingle(const MotionChannel& channel, std::uint64_t events) const {
   const OutlierJudge::Found& found = Singles(channel);
-  return events <= kEventsOfOne * (found.outliers.count + found.stamps.count);
+  return events <= kEventsOfOne * (found.outliers.count + found.stamps.count + found.begins.count +
+                                   found.ends.count);
 }
 
 bool EdgeJudge::Impl::IsExplained(const MotionChannel& channel, double acceleration) const {
@@ -399,6 +403,32 @@ void EdgeJudge::Impl::ReportOutliers(Findings* findings) const {
       "is this an outlier of what measured it? take such samples out of the recording: a link does "
       "not move so, and --smooth HZ only spreads it";
   findings->push_back(std::move(finding));
+}
+
+void EdgeJudge::Impl::ReportEnds(Findings* findings) const {
+  for (const bool begins : {true, false}) {
+    const auto tally = [&](const MotionChannel& c) {
+      return begins ? Singles(c).begins : Singles(c).ends;
+    };
+    const MotionChannel* channel =
+        Worse([&](const auto& c) { return tally(c).count > 0; },
+              [&](const auto& c) { return tally(c).size / c.limits().jump; });
+    if (!channel) continue;
+    const OutlierJudge::Tally found = tally(*channel);
+    Finding finding = Start("outlier", found);
+    finding.limit = LimitsOfOne(role, channel == &translation).size;
+    finding.unit = Unit(channel);
+    finding.what = std::string(begins ? "begins" : "ends") + " with " +
+                   (found.length == 1 ? "a sample that is "
+                                      : std::to_string(found.length) + " samples that are ") +
+                   SizeText(channel, finding.size) + " off the course of the others";
+    finding.remedy =
+        begins ? "is it published before its pose is known? begin behind it by --start, or take "
+                 "this out of the recording"
+               : "does its publisher end with zeros? end before it by --duration, or take this out "
+                 "of the recording";
+    findings->push_back(std::move(finding));
+  }
 }
 
 void EdgeJudge::Impl::ReportStamps(Findings* findings) const {
@@ -528,6 +558,7 @@ Findings EdgeJudge::Report(const std::string& subject, const std::string& topic)
   whole.course.Report(&findings);
   whole.ReportJumps(&findings);
   whole.ReportOutliers(&findings);
+  whole.ReportEnds(&findings);
   whole.ReportStamps(&findings);
   whole.ReportAccelerations(&findings);
   whole.ReportLateness(&findings);

@@ -117,6 +117,13 @@ void RecordingJudge::Restart() {
   }
 }
 
+void RecordingJudge::Finish() {
+  for (auto& [child, edge] : edges_) {
+    edge.motion.Finish();
+    if (edge.correction) edge.correction->Finish();
+  }
+}
+
 const RecordingJudge::Edge* RecordingJudge::Find(const std::string& child) const {
   const auto found = edges_.find(child);
   return found == edges_.end() ? nullptr : &found->second;

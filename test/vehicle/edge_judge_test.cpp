@@ -290,6 +290,73 @@ TEST(EdgeJudge, AUniformMotionIsNotQuantised) {
   EXPECT_EQ(Kinds(Found(EdgeRole::kBody, {100, 10, goes})), "jump");
 }
 
+// ---- The first samples and the last ones ------------------------------------------------------
+
+// 10 s of driving over a rough road; `wrong`: of the first samples, or of the last ones.
+template <class Wrong>
+Findings BadEnd(EdgeRole role, double rate, int samples, bool at_the_end, const Wrong& wrong) {
+  EdgeJudge judge(role, kMaxGap);
+  const int count = static_cast<int>(10 * rate);
+  for (int i = 0; i < count; ++i) {
+    const double t = i / rate;
+    const Pose right = At(5 + 3 * t + Rough(t), 0.3);
+    const bool is_wrong = at_the_end ? i >= count - samples : i < samples;
+    judge.Add(Stamp(kStart + t), is_wrong ? wrong(right) : right);
+  }
+  judge.Finish();
+  return judge.Report("odom -> base_link", "/tf");
+}
+
+TEST(EdgeJudge, TheFirstAndLastSamplesAreJudgedToo) {
+  const auto zeros = [](const Pose&) { return Pose(); };
+  const auto off = [](Pose pose) {
+    pose.p.y() += 0.03;
+    return pose;
+  };
+  const auto turned = [](Pose pose) {
+    pose.q = Eigen::Quaterniond::Identity();
+    return pose;
+  };
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 200.0, 500.0}) {
+      for (const int samples : {1, 2, 3}) {
+        for (const bool at_the_end : {false, true}) {
+          const double t = at_the_end ? 10 - samples / rate : 0;
+          for (const auto& findings : {BadEnd(role, rate, samples, at_the_end, zeros),
+                                       BadEnd(role, rate, samples, at_the_end, off),
+                                       BadEnd(role, rate, samples, at_the_end, turned)}) {
+            ASSERT_EQ(Kinds(findings), "outlier") << rate << " " << samples << " " << at_the_end;
+            EXPECT_EQ(findings[0].worst, Stamp(kStart + t));
+            EXPECT_NE(findings[0].what.find(at_the_end ? "ends with" : "begins with"),
+                      std::string::npos);
+            EXPECT_NE(findings[0].remedy.find(at_the_end ? "--duration" : "--start"),
+                      std::string::npos);
+          }
+          EXPECT_NEAR(BadEnd(role, rate, samples, at_the_end, off)[0].size, 0.03, 0.005);
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeJudge, AMotionMayBeginAndEndAtOnce) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 500.0}) {
+      for (const double part : {0.0, 0.3, 0.6, 0.9}) {
+        // It is set in motion within the first interval, and stopped within the last one.
+        EdgeJudge judge(role, kMaxGap);
+        const double begin = part / rate, end = 10 - part / rate;
+        for (int i = 0; i <= static_cast<int>(10 * rate); ++i) {
+          const double t = i / rate;
+          judge.Add(Stamp(kStart + t), At(std::clamp(t, begin, end)));
+        }
+        judge.Finish();
+        EXPECT_EQ(Kinds(judge.Report("", "")), "") << rate << " " << part;
+      }
+    }
+  }
+}
+
 // ---- Vibrations -------------------------------------------------------------------------------
 
 TEST(EdgeJudge, FastVibrationsAreNoNoiseAndNoJumps) {

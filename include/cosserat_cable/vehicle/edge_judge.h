@@ -33,6 +33,8 @@ class EdgeJudge {
   void Add(std::int64_t stamp, const Pose& X_PC);
   /// Time starts anew; what was found stays.
   void Restart();
+  /// No more samples come: judges the last ones, too.
+  void Finish();
 
   EdgeRole role() const;
   bool moves() const;

@@ -50,6 +50,8 @@ class RecordingJudge {
                 const std::string& topic, std::int64_t recorded = 0);
   /// Time starts anew; what was found stays.
   void Restart();
+  /// No more samples come.
+  void Finish();
 
   /// Frames from the vehicle's root to the topmost one.
   using Way = std::vector<std::string>;
