@@ -317,6 +317,13 @@ Findings EdgeJudge::Report(const std::string& subject, const std::string& topic)
   Impl whole = *impl_;
   whole.singles.JudgeRest();
   whole.course.Report(&findings);
+  if (whole.bursts.IsBursts() && whole.moves) {
+    // What else its motion shows comes of that.
+    findings.assign(1, whole.bursts.Report());
+    findings[0].subject = subject;
+    findings[0].topic = topic;
+    return findings;
+  }
   whole.ReportJumps(&findings);
   whole.ReportOutliers(&findings);
   whole.ReportEnds(&findings);

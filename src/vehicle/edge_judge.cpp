@@ -107,6 +107,7 @@ void EdgeJudge::Restart() {
   impl_->rotation.Restart();
   impl_->singles.Restart();
   impl_->course.Restart();
+  impl_->bursts.Restart();
 }
 
 void EdgeJudge::Finish() { impl_->singles.Finish(); }
@@ -114,6 +115,7 @@ void EdgeJudge::Finish() { impl_->singles.Finish(); }
 void EdgeJudge::Add(std::int64_t stamp, const Pose& X_PC) { impl_->Add({stamp, X_PC}); }
 
 void EdgeJudge::Impl::Add(const Sample& sample) {
+  bursts.Add(sample.stamp);
   if (has_last) {
     const double h = Seconds(last.stamp, sample.stamp);
     if (periods >= kIntervalsToKnowTheRate && h < kTooClose * period()) return;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "burst_judge.h"
 #include "cosserat_cable/vehicle/edge_judge.h"
 #include "course_judge.h"
 #include "motion_channel.h"
@@ -24,6 +25,7 @@ struct EdgeJudge::Impl {
   MotionChannel translation, rotation;
   OutlierJudge singles;
   CourseJudge course;
+  BurstJudge bursts;
   bool moves = false;
 
   struct Sample {

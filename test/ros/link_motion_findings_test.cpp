@@ -181,6 +181,21 @@ TEST_F(LinkMotionTest, AnEdgeThatEndsEarlyLimitsTheRun) {
       << findings[0].what;
 }
 
+TEST_F(LinkMotionTest, BurstsAreToldOfTheirTopic) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 400; ++i) {
+    const std::int64_t sent = kStart + (i / 20) * 20 * kPeriod + (i % 20) * 1000;
+    links.Ingest(Transform("odom", "base", sent, BodyPose(0.01 * i)), false, "", sent);
+    links.Ingest(Joints(kStart + i * kPeriod, Travel(0.01 * i)));
+  }
+  links.Finish();
+  const Findings findings = links.MotionFindings("odom");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "bursts");
+  EXPECT_EQ(findings[0].subject, "odom -> base");
+  EXPECT_EQ(findings[0].topic, "/tf");
+}
+
 TEST_F(LinkMotionTest, ATopicOfAnotherClockIsTold) {
   constexpr std::int64_t kLate = 1'500'000'000;
   LinkMotion links(vehicle_, needed_, options_);

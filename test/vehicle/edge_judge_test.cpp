@@ -117,6 +117,34 @@ TEST(EdgeJudge, StampsOfPublishingAreLate) {
   EXPECT_EQ(findings[0].topic, "/tf");
 }
 
+TEST(EdgeJudge, BurstsAreCalledSo) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double between : {0.1, 0.2, 0.5}) {
+      for (const double apart : {1e-6, 1e-4, 1e-3}) {
+        EdgeJudge judge(role, kMaxGap);
+        for (int i = 0; i < 500; ++i) {
+          const double measured = i * between / 10, sent = (i / 10) * between + (i % 10) * apart;
+          judge.Add(Stamp(kStart + sent), At(3 * measured));
+        }
+        judge.Finish();
+        const Findings findings = judge.Report("odom -> base_link", "/tf");
+        ASSERT_EQ(Kinds(findings), "bursts") << between << " " << apart;
+        EXPECT_NEAR(findings[0].size, between - 9 * apart, 1e-3);
+        EXPECT_NE(findings[0].what.find("some 10 samples"), std::string::npos) << findings[0].what;
+      }
+    }
+  }
+}
+
+TEST(EdgeJudge, TwoPublishersThatTakeTurnsAreNoBursts) {
+  EdgeJudge judge(EdgeRole::kBody, kMaxGap);
+  for (int i = 0; i < 1000; ++i) {
+    judge.Add(Stamp(kStart + 0.01 * i), At(0.03 * i));
+    judge.Add(Stamp(kStart + 0.01 * i + 1e-4), At(0.03 * i));
+  }
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
+}
+
 TEST(EdgeJudge, LateStampsOfATurnAreToldToo) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> late(0, 0.003);
