@@ -44,12 +44,25 @@ Finding EdgeJudge::Corrections(const std::string& subject, const std::string& to
   const MotionChannel* channel =
       impl_->Worse([](const auto& c) { return c.MovesByJumps(); },
                    [](const auto& c) { return c.largest_step().size / c.limits().jump; });
-  const MotionChannel::Tally& largest = channel->largest_step();
-  Finding finding = impl_->Start("jump", largest);
-  finding.first = finding.worst;
+  Finding finding;
+  if (channel) {
+    finding = impl_->Start("jump", channel->largest_step());
+    finding.first = finding.worst;
+    finding.what = "moves by steps, of up to " + impl_->SizeText(channel, finding.size);
+    finding.limit = channel->limits().jump;
+  } else if ((channel =
+                  impl_->Worse([this](const auto& c) { return impl_->MovesBySlides(c); },
+                               [this](const auto& c) { return impl_->Slides(c).slides().size; }))) {
+    const SlideJudge::Slides& slides = impl_->Slides(*channel).slides();
+    finding = impl_->Start("slide", slides);
+    finding.what =
+        (slides.count == 1 ? std::string("slides by ")
+                           : "slides " + std::to_string(slides.count) + " times, by up to ") +
+        impl_->SizeText(channel, slides.size) + " within " + Printed("%.2g s", slides.duration) +
+        ", and rests otherwise";
+  }
   finding.limit = channel->limits().jump;
   finding.unit = impl_->Unit(channel);
-  finding.what = "moves by steps, of up to " + impl_->SizeText(channel, finding.size);
   finding.subject = subject;
   finding.topic = topic;
   return finding;

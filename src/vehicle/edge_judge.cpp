@@ -80,7 +80,9 @@ EdgeJudge::Impl::Impl(EdgeRole the_role, double max_gap)
       translation(TranslationLimits(role), max_gap),
       rotation(RotationLimits(role), max_gap),
       singles(LimitsOfOne(role, true), LimitsOfOne(role, false), max_gap),
-      course(CourseLimitsOf(role), max_gap) {}
+      course(CourseLimitsOf(role), max_gap),
+      translation_slides(translation.limits().jump, translation.limits().jump_acceleration),
+      rotation_slides(rotation.limits().jump, rotation.limits().jump_acceleration) {}
 
 EdgeJudge::EdgeJudge(EdgeRole role, double max_gap)
     : impl_(std::make_unique<Impl>(role, max_gap)) {}
@@ -91,10 +93,14 @@ EdgeJudge& EdgeJudge::operator=(EdgeJudge&&) noexcept = default;
 EdgeRole EdgeJudge::role() const { return impl_->role; }
 bool EdgeJudge::moves() const { return impl_->moves; }
 
-bool EdgeJudge::MovesByJumps() const {
+bool EdgeJudge::IsCorrected() const {
   const MotionChannel& p = impl_->translation;
   const MotionChannel& q = impl_->rotation;
-  return p.MovesByJumps() || q.MovesByJumps();
+  return p.MovesByJumps() || q.MovesByJumps() || impl_->MovesBySlides(p) || impl_->MovesBySlides(q);
+}
+
+bool EdgeJudge::IsRough() const {
+  return impl_->IsRough(impl_->translation) || impl_->IsRough(impl_->rotation);
 }
 
 void EdgeJudge::Restart() {
@@ -108,6 +114,8 @@ void EdgeJudge::Restart() {
   impl_->singles.Restart();
   impl_->course.Restart();
   impl_->bursts.Restart();
+  impl_->translation_slides.Restart();
+  impl_->rotation_slides.Restart();
 }
 
 void EdgeJudge::Finish() { impl_->singles.Finish(); }
@@ -122,6 +130,10 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
     const Eigen::Vector3d d = sample.X.p - last.X.p;
     const Eigen::Vector3d turn = Turn(last.X.q, sample.X.q);
     course.Add(sample.stamp, sample.X.p);
+    if (role == EdgeRole::kAboveVehicle) {
+      translation_slides.Add(d, h, sample.stamp);
+      rotation_slides.Add(turn, h, sample.stamp);
+    }
     translation.AddToGrid(d);
     rotation.AddToGrid(turn);
     moves = moves || d.squaredNorm() > kStill * kStill || turn.squaredNorm() > kStill * kStill;

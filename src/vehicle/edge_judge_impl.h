@@ -10,6 +10,7 @@
 #include "course_judge.h"
 #include "motion_channel.h"
 #include "outlier_judge.h"
+#include "slide_judge.h"
 
 namespace cosserat_cable {
 
@@ -26,6 +27,7 @@ struct EdgeJudge::Impl {
   OutlierJudge singles;
   CourseJudge course;
   BurstJudge bursts;
+  SlideJudge translation_slides, rotation_slides;  ///< of what is above the vehicle
   bool moves = false;
 
   struct Sample {
@@ -81,6 +83,16 @@ struct EdgeJudge::Impl {
   /// Whether it vibrates fast, by more than its steps may look like.
   bool Vibrates(const MotionChannel& channel) const;
   double Interval() const { return period() * std::max(stride, 1); }
+  const SlideJudge& Slides(const MotionChannel& channel) const {
+    return &channel == &translation ? translation_slides : rotation_slides;
+  }
+  /// Whether it rests but for short slides of this channel.
+  bool MovesBySlides(const MotionChannel& channel) const {
+    return Slides(channel).slides().count > 0 && !translation_slides.travels() &&
+           !rotation_slides.travels();
+  }
+  /// More than once: one block may be an event.
+  bool IsRough(const MotionChannel& channel) const { return channel.rough().count > 1; }
   /// How to smooth noise of so much acceleration [/s^2].
   std::string SmoothText(const MotionChannel& channel, double noise) const;
   /// Of a channel's events, or of single samples.

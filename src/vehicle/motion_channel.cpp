@@ -177,6 +177,7 @@ void MotionChannel::AddToBlock(const Step& before, const Step& step) {
 void MotionChannel::CloseBlock() {
   ++blocks_;
   const double rms = std::sqrt(block_.squares / kBlock);
+  if (rms > limits_.noise) rough_.Add(block_.first, rms, std::sqrt(block_.largest));
   const bool one_event = block_.largest > kOneEvent * block_.squares;
   if (rms > limits_.lateness && block_.by_index < kMuchSmoother * block_.squares) {
     lateness_.Add(block_.first, rms, std::sqrt(block_.largest));
@@ -250,7 +251,9 @@ double MotionChannel::SpreadOfDelays() const {
 }
 
 bool MotionChannel::MovesByJumps() const {
-  return largest_change_ >= limits_.jump && largest_acceleration_ >= limits_.jump_acceleration &&
+  const bool vibrates = 2 * vibration_.count > blocks_;
+  return !vibrates && largest_change_ >= limits_.jump &&
+         largest_acceleration_ >= limits_.jump_acceleration &&
          squared_changes_ > kJumpy * squared_steps_;
 }
 

@@ -22,6 +22,8 @@ struct MotionLimits {
 
 class MotionChannel {
  public:
+  static constexpr int kBlock = 32;  ///< accelerations that are judged together
+
   /// Events of one kind.
   struct Tally {
     std::uint64_t count = 0;
@@ -59,6 +61,8 @@ class MotionChannel {
   /// The step that all displacements are multiples of, see StepGrid; 0: none.
   double step() const { return grid_.Step(); }
   const Tally& lateness() const { return lateness_; }
+  /// Blocks that accelerate by more than the limit of noise, whatever they consist of.
+  const Tally& rough() const { return rough_; }
   double worst_lateness() const { return worst_lateness_; }  ///< spread of the delays [s]
   std::uint64_t blocks() const { return blocks_; }
   /// The largest displacement that counts as one of a correction, and how many there were.
@@ -67,8 +71,7 @@ class MotionChannel {
   bool MovesByJumps() const;
 
  private:
-  static constexpr int kRing = 7;    // displacements around one that may be a jump
-  static constexpr int kBlock = 32;  // accelerations
+  static constexpr int kRing = 7;  // displacements around one that may be a jump
 
   struct Step {
     Eigen::Vector3d d = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero();
@@ -106,7 +109,7 @@ class MotionChannel {
   std::uint64_t blocks_ = 0;
 
   StepGrid grid_;
-  Tally jumps_, grid_jumps_, accelerations_, noise_, vibration_, lateness_;
+  Tally jumps_, grid_jumps_, accelerations_, noise_, vibration_, lateness_, rough_;
   double worst_lateness_ = 0;
   double vibration_frequency_ = std::numeric_limits<double>::infinity();
 };

@@ -44,6 +44,14 @@ RecordingJudge::Edge::Edge(std::string the_parent, std::string the_child, EdgeRo
   if (Moves(the_joint)) joint.emplace(*the_joint, max_gap);
 }
 
+bool RecordingJudge::Edge::IsCorrected() const {
+  if (!correction) return false;
+  // By REP-105 it is the localisation that moves odom in map.
+  const bool by_name =
+      parent.find("map") != std::string::npos && child.find("odom") != std::string::npos;
+  return correction->IsCorrected() || (by_name && correction->IsRough());
+}
+
 RecordingJudge::RecordingJudge(const VehicleModel& vehicle, double max_gap)
     : vehicle_(vehicle), max_gap_(max_gap) {}
 
@@ -136,7 +144,7 @@ std::size_t RecordingJudge::FirstCorrected(const Way& way) const {
   for (; i + 1 < way.size(); ++i) {
     const Edge* edge = Find(way[i]);
     if (!edge) continue;
-    if (moves_below && edge->correction && edge->correction->MovesByJumps()) break;
+    if (moves_below && edge->IsCorrected()) break;
     moves_below = moves_below || edge->motion.moves();
   }
   return i;
@@ -190,7 +198,7 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
     const auto at = std::find(way.begin(), way.end(), child);
     const bool above =
         at != way.end() && at - way.begin() >= static_cast<std::ptrdiff_t>(corrected);
-    const bool is_corrected = above && edge.correction && edge.correction->MovesByJumps();
+    const bool is_corrected = above && edge.IsCorrected();
     Findings motion = (is_corrected ? *edge.correction : edge.motion).Report(subject, edge.topic);
     if (is_corrected) {
       // Many small ones, none of which stands out.
@@ -203,15 +211,18 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
                                "--world-frame " +
                                    smooth + " (~world_frame of the node)";
     }
-    // A vehicle that stands still in a frame that is corrected.
-    if (!is_corrected && motion.empty() && edge.correction && edge.correction->MovesByJumps()) {
-      motion = edge.correction->Report(subject, edge.topic);
-      if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
+    // A vehicle that stands still in a frame that is corrected; or these are its own leaps.
+    if (!is_corrected && edge.IsCorrected()) {
+      if (motion.empty()) {
+        motion = edge.correction->Report(subject, edge.topic);
+        if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
+        for (Finding& finding : motion) finding.remedy.clear();
+      }
       for (Finding& finding : motion)
-        finding.remedy =
-            "does a localisation correct it? then take the frame below as inertial, "
-            "--world-frame " +
-            child + " (~world_frame of the node)";
+        finding.remedy += (finding.remedy.empty() ? "" : "; ") +
+                          ("does a localisation correct it? then take the frame below as inertial, "
+                           "--world-frame " +
+                           child + " (~world_frame of the node)");
     }
     std::move(motion.begin(), motion.end(), std::back_inserter(findings));
     if (edge.joint) {

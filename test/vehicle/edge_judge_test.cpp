@@ -498,11 +498,11 @@ TEST(EdgeJudge, TwoSamplesNearlyAtOneTimeAreNoJump) {
 
 // ---- Corrections ------------------------------------------------------------------------------
 
-TEST(EdgeJudge, ACorrectionMovesByJumpsAtAnyRate) {
+TEST(EdgeJudge, ACorrectionIsCorrectedAtAnyRate) {
   const auto corrected = [](double t) { return At(7 + (t > 4.95 ? 0.1 : 0)); };
   for (const double rate : {1.0, 10.0, 50.0}) {
     const EdgeJudge judge = Judged(EdgeRole::kAboveVehicle, {rate, 10, corrected});
-    EXPECT_TRUE(judge.MovesByJumps()) << rate;
+    EXPECT_TRUE(judge.IsCorrected()) << rate;
     EXPECT_EQ(Kinds(judge.Report("", "")), "jump") << rate;
   }
 }
@@ -510,14 +510,14 @@ TEST(EdgeJudge, ACorrectionMovesByJumpsAtAnyRate) {
 TEST(EdgeJudge, ACorrectionOfTheHeadingCountsToo) {
   EXPECT_TRUE(Judged(EdgeRole::kAboveVehicle,
                      {10, 10, [](double t) { return At(0, t > 4.95 ? 0.005 : 0); }})
-                  .MovesByJumps());
+                  .IsCorrected());
 }
 
 TEST(EdgeJudge, APlatformDoesNotMoveByJumps) {
   const auto ship = [](double t) { return At(5 * t + 0.5 * std::sin(t), 0.1 * std::sin(0.8 * t)); };
-  EXPECT_FALSE(Judged(EdgeRole::kAboveVehicle, {10, 20, ship}).MovesByJumps());
+  EXPECT_FALSE(Judged(EdgeRole::kAboveVehicle, {10, 20, ship}).IsCorrected());
   EXPECT_FALSE(
-      Judged(EdgeRole::kAboveVehicle, {10, 20, [](double) { return At(3); }}).MovesByJumps());
+      Judged(EdgeRole::kAboveVehicle, {10, 20, [](double) { return At(3); }}).IsCorrected());
 }
 
 }  // namespace

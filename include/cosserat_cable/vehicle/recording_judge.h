@@ -30,6 +30,9 @@ class RecordingJudge {
     std::optional<JointJudge> joint;
     PublisherJudge publishers;
     std::optional<Pose> fixed;  ///< while it does not move
+
+    /// Whether it moves as a localisation's corrections do, or does under the name of such.
+    bool IsCorrected() const;
   };
 
   /// `vehicle` outlives this. `max_gap` [s]: motion across longer intervals is not known.
@@ -56,7 +59,7 @@ class RecordingJudge {
   /// Frames from the vehicle's root to the topmost one.
   using Way = std::vector<std::string>;
   /// The highest frame of the way that no localisation's correction moves: below the first edge
-  /// that moves by jumps and has a moving edge below it. The last one where there is none such.
+  /// that is corrected and has a moving edge below it. The last one where there is none such.
   std::string SmoothFrame(const Way& way) const;
   /// What was found so far. `world`: the inertial frame that is taken.
   Findings Report(const Way& way, const std::string& world) const;
