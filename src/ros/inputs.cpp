@@ -25,6 +25,8 @@ namespace {
 constexpr std::int64_t kSurveyHistory = 5'000'000'000;  // [ns]
 // What is older is let go of this often: each time costs a walk over all edges.
 constexpr std::uint64_t kDropInterval = 100;  // [messages]
+// How often it is looked whether the vehicle stands upright [ns].
+constexpr std::int64_t kLookInterval = 20'000'000;
 
 std::string Join(const std::vector<std::string>& words) {
   std::string text;
@@ -104,7 +106,10 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   // Who says that gravity points elsewhere knows what is up.
   UprightJudge upright(options.gravity_W == kGravityDown ? options.gravity_W
                                                          : Eigen::Vector3d::Zero());
+  std::int64_t looked = 0;
   const auto look = [&] {
+    if (links.last_stamp() - looked < kLookInterval) return;
+    looked = links.last_stamp();
     if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
       upright.Add(links.last_stamp(), X_WR->q);
   };
@@ -112,12 +117,11 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     Feed(message, &links);
     if (++messages % kDropInterval == 0) {
       links.DropBefore(links.last_stamp() - kSurveyHistory);
-      look();
     }
+    look();
     return true;
   });
   links.Finish();
-  look();
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason);
   }

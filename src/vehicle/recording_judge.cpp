@@ -42,6 +42,9 @@ RecordingJudge::Edge::Edge(std::string the_parent, std::string the_child, EdgeRo
       motion(role == EdgeRole::kAboveVehicle ? EdgeRole::kBody : role, max_gap) {
   if (role == EdgeRole::kAboveVehicle) correction.emplace(role, max_gap);
   if (Moves(the_joint)) joint.emplace(*the_joint, max_gap);
+  // A joint that the recording has elsewhere may be a wheel's.
+  const bool may_spin = role == EdgeRole::kJoint && (!the_joint || Moves(the_joint));
+  if (!may_spin) attitude.emplace(max_gap);
 }
 
 bool RecordingJudge::Edge::IsCorrected() const {
@@ -81,6 +84,7 @@ int RecordingJudge::Publisher(const std::string& name) {
 void RecordingJudge::AddMotion(Edge* edge, std::int64_t stamp, const Pose& X_PC) {
   edge->motion.Add(stamp, X_PC);
   if (edge->correction) edge->correction->Add(stamp, X_PC);
+  if (edge->attitude) edge->attitude->Add(stamp, X_PC.q);
 }
 
 void RecordingJudge::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
@@ -121,6 +125,7 @@ void RecordingJudge::Restart() {
     edge.motion.Restart();
     if (edge.correction) edge.correction->Restart();
     if (edge.joint) edge.joint->Restart();
+    if (edge.attitude) edge.attitude->Restart();
     edge.publishers.Restart();
   }
 }
@@ -199,6 +204,14 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
     const bool above =
         at != way.end() && at - way.begin() >= static_cast<std::ptrdiff_t>(corrected);
     const bool is_corrected = above && edge.IsCorrected();
+    // An angle in the wrong unit is why it moves as it does.
+    Findings attitude;
+    if (edge.attitude) attitude = edge.attitude->Report(subject, edge.topic);
+    if (!attitude.empty()) {
+      std::move(attitude.begin(), attitude.end(), std::back_inserter(findings));
+      ReportConflict(edge, &findings);
+      continue;
+    }
     Findings motion = (is_corrected ? *edge.correction : edge.motion).Report(subject, edge.topic);
     if (is_corrected) {
       // Many small ones, none of which stands out.

@@ -245,6 +245,22 @@ TEST_F(RecordingJudgeTest, PublishersThatAgreeAreFine) {
   EXPECT_TRUE(judge_.Report({"base_link"}, "base_link").empty());
 }
 
+TEST_F(RecordingJudgeTest, AnAttitudeInDegreesIsToldInsteadOfWhatComesOfIt) {
+  for (int i = 0; i <= 500; ++i) {
+    Pose pose = At(Rolls(i));
+    pose.q = Eigen::AngleAxisd(2 * std::sin(0.15 * i), Eigen::Vector3d::UnitX());
+    judge_.AddMotion(judge_.At("odom", "base_link"), kStart + i * kPeriod, pose);
+    // A wheel under a parent that the URDF does not know.
+    pose.q = Eigen::AngleAxisd(0.8 * i, Eigen::Vector3d::UnitY());
+    pose.p.setZero();
+    judge_.AddMotion(judge_.At("axle", "strut"), kStart + i * kPeriod, pose);
+  }
+  const Findings findings = judge_.Report({"base_link", "odom"}, "odom");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "degrees");
+  EXPECT_EQ(findings[0].subject, "odom -> base_link");
+}
+
 TEST_F(RecordingJudgeTest, FixedTransformsThatContradictAreTold) {
   judge_.AddFixed("base_link", "mast", vehicle_.joints[1].X_PJ, "/tf_static");
   EXPECT_TRUE(judge_.Report({"base_link"}, "base_link").empty());

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/vehicle/attitude_judge.h"
 #include "cosserat_cable/vehicle/edge_judge.h"
 #include "cosserat_cable/vehicle/finding.h"
 #include "cosserat_cable/vehicle/joint_judge.h"
@@ -28,6 +29,7 @@ class RecordingJudge {
     EdgeJudge motion;
     std::optional<EdgeJudge> correction;  ///< the same as a localisation's; above the vehicle
     std::optional<JointJudge> joint;
+    std::optional<AttitudeJudge> attitude;  ///< of what no joint turns
     PublisherJudge publishers;
     std::optional<Pose> fixed;  ///< while it does not move
 
