@@ -108,16 +108,14 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
                                                          : Eigen::Vector3d::Zero());
   std::int64_t looked = 0;
   const auto look = [&] {
-    if (links.last_stamp() - looked < kLookInterval) return;
+    if (std::abs(links.last_stamp() - looked) < kLookInterval) return;
     looked = links.last_stamp();
     if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
       upright.Add(links.last_stamp(), X_WR->q);
   };
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &links);
-    if (++messages % kDropInterval == 0) {
-      links.DropBefore(links.last_stamp() - kSurveyHistory);
-    }
+    if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
     look();
     return true;
   });

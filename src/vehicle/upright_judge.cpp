@@ -35,13 +35,13 @@ void UprightJudge::Add(std::int64_t stamp, const Eigen::Quaterniond& q_WR) {
   run_.last = stamp;
   run_.least = std::min(run_.least, angle);
   run_.most = std::max(run_.most, angle);
-  if (run_.count == 1 || run_.last - run_.first > longest_.last - longest_.first) longest_ = run_;
+  if (run_.count > longest_.count) longest_ = run_;
 }
 
 Findings UprightJudge::Report(const std::string& root, const std::string& world) const {
   const Run& run = longest_;
-  const auto lies = static_cast<double>(run.last - run.first);
-  if (run.count < kFewest || lies < kMost * static_cast<double>(last_ - first_)) return {};
+  if (run.count < kFewest || static_cast<double>(run.count) < kMost * static_cast<double>(count_))
+    return {};
   const bool all = run.count == count_;
   const bool upside_down = run.least > kUpsideDown;
   Finding finding;

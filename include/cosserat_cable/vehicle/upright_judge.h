@@ -15,7 +15,7 @@ class UprightJudge {
   /// Of the inertial frame [m/s^2]; 0: nothing is judged.
   explicit UprightJudge(const Eigen::Vector3d& gravity_W) : gravity_W_(gravity_W) {}
 
-  /// The orientation of the vehicle's root.
+  /// The orientation of the vehicle's root, at even times.
   void Add(std::int64_t stamp, const Eigen::Quaterniond& q_WR);
   /// What was found: nothing where the vehicle stood upright for most of the time, or again and
   /// again.
