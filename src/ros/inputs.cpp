@@ -144,6 +144,15 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     if (above->second.is_followed) survey.gaps -= above->second.gaps;
     above->second.is_followed = false;
   }
+  survey.constants = links.Constants(survey.world);
+  for (const ConstantEdge& constant : survey.constants)
+    survey.notes.push_back(constant.parent + " -> " + constant.child + " (" +
+                           ToString(LinkMotion::Source::kTf, bags.topics()) +
+                           ") never changes, and is sent every " +
+                           FormatRounded(constant.interval, 3) +
+                           " s: it is taken to hold in all of the recording, also before its first "
+                           "sample and after its last one; " +
+                           bags.topics().tf_static() + " is for such transforms");
   bool nothing = false;
   survey.findings = links.CoverageFindings(survey.world, &nothing);
   for (Finding& finding : links.MotionFindings(survey.world))
@@ -168,6 +177,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   }
 
   link_options.world_frame = survey.world;
+  link_options.constants = survey.constants;
   link_options.judge = false;
   LinkMotion again(inputs->vehicle, needed, link_options);
   const auto dt = static_cast<std::int64_t>(options.dt * 1e9);
@@ -196,6 +206,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (paths.follow_clamps) {
     EngineOptions followed = options;
     followed.links.world_frame = survey.world;
+    followed.links.constants = survey.constants;
     survey.clamps = FollowClamps(bags, survey.from, survey.to, inputs->vehicle,
                                  inputs->cables.cables, followed);
     for (const ClampJudge& clamps : survey.clamps)

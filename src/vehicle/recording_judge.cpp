@@ -120,14 +120,16 @@ void RecordingJudge::AddFixed(const std::string& parent, const std::string& chil
     ++known->count;
 }
 
+void RecordingJudge::Restart(Edge* edge) {
+  edge->motion.Restart();
+  if (edge->correction) edge->correction->Restart();
+  if (edge->joint) edge->joint->Restart();
+  if (edge->attitude) edge->attitude->Restart();
+  edge->publishers.Restart();
+}
+
 void RecordingJudge::Restart() {
-  for (auto& [child, edge] : edges_) {
-    edge.motion.Restart();
-    if (edge.correction) edge.correction->Restart();
-    if (edge.joint) edge.joint->Restart();
-    if (edge.attitude) edge.attitude->Restart();
-    edge.publishers.Restart();
-  }
+  for (auto& [child, edge] : edges_) Restart(&edge);
 }
 
 void RecordingJudge::Finish() {

@@ -55,6 +55,8 @@ class RecordingJudge {
                 const std::string& topic, std::int64_t recorded = 0);
   /// Time starts anew; what was found stays.
   void Restart();
+  /// The same for one edge.
+  void Restart(Edge* edge);
   /// No more samples come.
   void Finish();
 
