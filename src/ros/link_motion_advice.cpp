@@ -189,7 +189,9 @@ void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* 
   if (options_.topics.use_record_times) return;
   std::map<Source, std::vector<std::string>> topics;
   for (const auto& [child, edge] : edges_)
-    if (edge.is_followed && above.count(child) == 0 && edge.delays.count() > 0)
+    // A clock that was set is told as such.
+    if (edge.is_followed && above.count(child) == 0 && edge.delays.count() > 0 &&
+        edge.set_back == 0)
       topics[edge.source].push_back(child);
   const auto change_of = [&](const std::string& child) { return edges_.at(child).delays.Change(); };
   std::map<Source, std::pair<std::int64_t, std::string>> changes;  // the middle one of each topic

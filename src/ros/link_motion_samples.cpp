@@ -21,6 +21,8 @@ constexpr double kLongInterval = 1.5, kTooClose = 0.25;
 constexpr std::uint64_t kKnowsTheRate = 4;  // samples
 // Later samples with earlier stamps say that its own is wrong.
 constexpr int kOvertaken = 3;
+// A message that is recorded twice has the same pose both times [m], [rad].
+constexpr double kSamePose = 1e-6;
 // More than kBackwardsJump holds at any rate.
 constexpr std::size_t kMostOlder = 1000;
 constexpr std::int64_t kDelayRounding = 1'000'000;  // [ns]
@@ -106,11 +108,18 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
       edge->samples > 0 && (stamp == edge->last || (edge->held && stamp == edge->held->stamp));
   if (repeats || (edge->samples > 0 && stamp < edge->last)) {
     JudgeSaid(edge, child, sample);
-    Warnings::Event event =
-        Event("'" + child + "'", "frame '" + child + "' by " + ToString(source),
-              repeats ? "it is left out: do two publishers send it, or is a message recorded twice?"
-                      : "it is left out: are stamps late or early, or do two publishers send it?",
-              stamp);
+    const Pose& before = edge->held ? edge->held->X_PC : edge->last_pose;
+    const bool is_same =
+        (X_PC.p - before.p).norm() < kSamePose && before.q.angularDistance(X_PC.q) < kSamePose;
+    Warnings::Event event = Event(
+        "'" + child + "'", "frame '" + child + "' by " + ToString(source),
+        !repeats ? "it is left out: are stamps late or early, or do two publishers send it?"
+        : is_same
+            ? "it is left out: do two publishers send it, or is a message recorded twice?"
+            : "it is left out, though its pose is another one: are poses stamped when they are "
+              "sent, in bursts, or do two publishers disagree? stamp them when they are "
+              "measured",
+        stamp);
     if (repeats && edge->older.empty()) {
       warnings_.Count("sample repeated with the same stamp", event);
     } else {

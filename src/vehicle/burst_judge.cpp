@@ -8,6 +8,8 @@ namespace {
 // An interval that is shorter than this part of the mean one is within a burst. Of intervals that
 // are random, a third is; of two publishers that take turns, half is.
 constexpr double kClose = 0.4, kShare = 0.62;
+// One that is longer than this is a pause, even between bursts of three.
+constexpr double kPause = 2;
 constexpr std::uint64_t kFewestIntervals = 24, kFewestBursts = 3;
 // Longer ones are holes of the recording and no part of the rhythm [ns].
 constexpr std::int64_t kHole = 3'000'000'000;
@@ -36,7 +38,7 @@ void BurstJudge::Add(std::int64_t stamp) {
       in_a_row_ = 0;
       length_ = 0;
       // At the beginning the mean is still that within a burst.
-      if (static_cast<double>(h) > mean) {
+      if (static_cast<double>(h) > kPause * mean) {
         between_ += h;
         ++pauses_;
       }

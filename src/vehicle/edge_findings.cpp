@@ -312,7 +312,7 @@ void EdgeJudge::Impl::ReportQuantisation(Findings* findings) const {
   const bool all_the_time = IsHabit(channel->noise(), channel->blocks());
   Finding finding = Start("quantisation", all_the_time ? channel->noise() : channel->grid_jumps());
   const double acceleration = all_the_time ? finding.size : channel->grid_jumps().acceleration;
-  finding.size = Quantum(*channel);
+  finding.size = Grid(*channel).LargestStep();
   finding.limit = channel->limits().noise * Interval() * Interval() / kToggles;
   finding.unit = Unit(channel);
   finding.what = "moves in steps of " + SizeText(channel, finding.size) +

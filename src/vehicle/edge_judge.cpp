@@ -58,6 +58,18 @@ Eigen::Vector3d Turn(const Eigen::Quaterniond& from, const Eigen::Quaterniond& t
   return std::copysign(2 * (1 + sine / 6), turn.w()) * turn.vec();
 }
 
+// Of roll, pitch and yaw.
+Eigen::Vector3d ChangeOfAngles(const Eigen::Quaterniond& from, const Eigen::Quaterniond& to) {
+  const auto angles = [](const Eigen::Quaterniond& q) {
+    const double w = q.w(), x = q.x(), y = q.y(), z = q.z();
+    return Eigen::Vector3d(std::atan2(2 * (w * x + y * z), 1 - 2 * (x * x + y * y)),
+                           std::asin(std::clamp(2 * (w * y - z * x), -1.0, 1.0)),
+                           std::atan2(2 * (w * z + x * y), 1 - 2 * (y * y + z * z)));
+  };
+  const Eigen::Vector3d change = angles(to) - angles(from);
+  return {std::remainder(change.x(), 2 * M_PI), change.y(), std::remainder(change.z(), 2 * M_PI)};
+}
+
 }  // namespace
 
 // Of single samples that their neighbours do not explain: what a cable hardly answers to is no
@@ -136,6 +148,7 @@ void EdgeJudge::Impl::Add(const Sample& sample) {
     }
     translation.AddToGrid(d);
     rotation.AddToGrid(turn);
+    angles.Add(ChangeOfAngles(last.X.q, sample.X.q));
     moves = moves || d.squaredNorm() > kStill * kStill || turn.squaredNorm() > kStill * kStill;
     if (h <= longest) {
       period_sum += h;

@@ -11,6 +11,7 @@
 #include "motion_channel.h"
 #include "outlier_judge.h"
 #include "slide_judge.h"
+#include "step_grid.h"
 
 namespace cosserat_cable {
 
@@ -24,6 +25,7 @@ struct EdgeJudge::Impl {
   EdgeRole role;
   double longest;
   MotionChannel translation, rotation;
+  StepGrid angles;  ///< roll, pitch and yaw [rad]
   OutlierJudge singles;
   CourseJudge course;
   BurstJudge bursts;
@@ -69,9 +71,13 @@ struct EdgeJudge::Impl {
   const OutlierJudge::Found& Singles(const MotionChannel& channel) const {
     return &channel == &translation ? singles.translation() : singles.rotation();
   }
+  /// Turns about one axis have a grid of their own, those about several have one in their angles.
+  const StepGrid& Grid(const MotionChannel& channel) const {
+    return &channel == &rotation && angles.Step() > 0 ? angles : channel.grid();
+  }
   /// The step that a coarse sensor or rounding leaves; 0: none. Corrections may have one size too.
   double Quantum(const MotionChannel& channel) const {
-    return role == EdgeRole::kAboveVehicle ? 0 : channel.step();
+    return role == EdgeRole::kAboveVehicle ? 0 : Grid(channel).Step();
   }
   /// A joint's steps of one size are those of its encoder; so are outliers that are no larger.
   bool IsEncoder(const MotionChannel& channel) const;

@@ -50,7 +50,9 @@ class MotionChannel {
   const MotionLimits& limits() const { return limits_; }
   /// There and back to rest, but for steps of the grid.
   const Tally& jumps() const { return jumps_; }
-  const Tally& grid_jumps() const { return grid_jumps_; }  ///< of a step or two, where step() is
+  const Tally& grid_jumps() const {
+    return grid_jumps_;
+  }  ///< of a step or two, where grid() has one
   const Tally& accelerations() const { return accelerations_; }  ///< beyond any limit
   /// Blocks of samples; the size is the rms of the acceleration, of noise without the part that
   /// what came before predicts.
@@ -58,8 +60,8 @@ class MotionChannel {
   /// Blocks that consist of a vibration, and the lowest frequency of these [Hz].
   const Tally& vibration() const { return vibration_; }
   double vibration_frequency() const { return vibration_frequency_; }
-  /// The step that all displacements are multiples of, see StepGrid; 0: none.
-  double step() const { return grid_.Step(); }
+  /// What all displacements are multiples of.
+  const StepGrid& grid() const { return grid_; }
   const Tally& lateness() const { return lateness_; }
   /// Blocks that accelerate by more than the limit of noise, whatever they consist of.
   const Tally& rough() const { return rough_; }

@@ -1,5 +1,6 @@
 #include "step_grid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace cosserat_cable {
@@ -52,6 +53,13 @@ double StepGrid::Step() const {
   for (const Axis& axis : axes_)
     if (axis.IsGrid()) squares += axis.step * axis.step;
   return std::sqrt(squares);
+}
+
+double StepGrid::LargestStep() const {
+  double largest = 0;
+  for (const Axis& axis : axes_)
+    if (axis.IsGrid()) largest = std::max(largest, axis.step);
+  return largest;
 }
 
 double StepGrid::Candidate() const {

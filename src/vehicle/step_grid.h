@@ -13,6 +13,8 @@ class StepGrid {
   void Add(const Eigen::Vector3d& d);
   /// One step along each axis that has a grid; 0 where none has, or too little is known.
   double Step() const;
+  /// The largest one of these along one axis.
+  double LargestStep() const;
   /// The same while it is not known yet whether all displacements keep to it.
   double Candidate() const;
 

@@ -240,6 +240,7 @@ TEST_F(LinkMotionTest, AClockThatWasSetBackIsToldInsteadOfJumps) {
     EXPECT_NE(set_back->remedy.find("--use-record-times"), std::string::npos);
     EXPECT_EQ(FindKind(findings, "jump"), nullptr) << seconds;
     EXPECT_EQ(FindKind(findings, "acceleration"), nullptr) << seconds;
+    EXPECT_EQ(FindKind(findings, "clock_drifts"), nullptr) << seconds;
     EXPECT_TRUE(links.warnings().counts().empty()) << seconds;
   }
 }
@@ -297,6 +298,19 @@ TEST_F(LinkMotionTest, BurstsAreToldOfTheirTopic) {
   EXPECT_EQ(findings[0].kind, "bursts");
   EXPECT_EQ(findings[0].subject, "odom -> base");
   EXPECT_EQ(findings[0].topic, "/tf");
+}
+
+TEST_F(LinkMotionTest, AnotherPoseAtTheSameStampIsToldAsStampOfSending) {
+  for (const bool moves : {true, false}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    for (int i = 0; i < 400; ++i)
+      links.Ingest(Transform("odom", "base", kStart + (i / 10) * 10 * kPeriod,
+                             BodyPose(moves ? 0.01 * i : 0)),
+                   false);
+    links.Finish();
+    EXPECT_EQ(links.warnings().counts().at("sample repeated with the same stamp"), 360u);
+    EXPECT_EQ(Says(links.warnings().Sentences(), "are poses stamped when they are sent"), moves);
+  }
 }
 
 TEST_F(LinkMotionTest, ATopicOfAnotherClockIsTold) {

@@ -298,6 +298,24 @@ TEST(EdgeJudge, QuantisationIsToldWithItsStepAndWhatTakesItOut) {
   EXPECT_NE(findings[0].remedy.find("--smooth "), std::string::npos) << findings[0].remedy;
 }
 
+TEST(EdgeJudge, AnglesThatAreQuantisedOneByOneAreSeen) {
+  // Roll, pitch and yaw in steps of 0.1 deg, as an attitude sensor has them.
+  const auto rounded = [](double angle) {
+    constexpr double kStep = 0.1 * M_PI / 180;
+    return kStep * std::round(angle / kStep);
+  };
+  const auto attitude = [&](double t) {
+    Pose pose = At(3 * t);
+    pose.q = Eigen::AngleAxisd(rounded(0.2 * t), Eigen::Vector3d::UnitZ()) *
+             Eigen::AngleAxisd(rounded(0.02 * std::sin(9 * t)), Eigen::Vector3d::UnitY()) *
+             Eigen::AngleAxisd(rounded(0.03 * std::sin(8 * t)), Eigen::Vector3d::UnitX());
+    return pose;
+  };
+  const Findings findings = Found(EdgeRole::kBody, {100, 10, attitude});
+  ASSERT_EQ(Kinds(findings), "quantisation");
+  EXPECT_NE(findings[0].what.find("in steps of 0.1 deg"), std::string::npos) << findings[0].what;
+}
+
 TEST(EdgeJudge, AJumpOfACoarseSensorIsStillAJump) {
   const Findings findings =
       Found(EdgeRole::kBody, {50, 20, [](double t) {
