@@ -181,21 +181,22 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   link_options.judge = false;
   LinkMotion again(inputs->vehicle, needed, link_options);
   const auto dt = static_cast<std::int64_t>(options.dt * 1e9);
-  const auto known = [&] {
+  const auto known = [&](bool all_read) {
     std::int64_t begin = 0, ready = 0;
     if (!again.Missing().empty() || !again.Range(&begin, &ready)) return false;
-    survey.first_step = (begin + dt - 1) / dt * dt;
+    // A recording of one instant has no other.
+    survey.first_step = all_read && begin == ready ? begin : (begin + dt - 1) / dt * dt;
     return survey.first_step <= ready;
   };
   bool done = false;
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &again);
-    done = known();
+    done = known(false);
     return !done;
   });
   if (!done) {
     again.Finish();
-    done = known();
+    done = known(true);
   }
   if (!done) {
     for (std::string& reason : links.Apart()) problems->Add(all, std::move(reason));

@@ -234,7 +234,7 @@ Findings LinkMotion::MotionFindings(const std::string& world) const {
   const std::set<std::string> above = Above(world);
   AddClockFindings(above, &findings);
   AddDriftFindings(above, &findings);
-  AddSetBackFindings(above, &findings);
+  AddSetClockFindings(above, &findings);
   AddGapFindings(above, &findings);
   AddUnconnectedFindings(&findings);
   for (Finding& finding : judge_->Report(WayAboveVehicle(), world))

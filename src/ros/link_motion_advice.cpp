@@ -191,7 +191,7 @@ void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* 
   for (const auto& [child, edge] : edges_)
     // A clock that was set is told as such.
     if (edge.is_followed && above.count(child) == 0 && edge.delays.count() > 0 &&
-        edge.set_back == 0)
+        edge.set_back + edge.set_forward == 0)
       topics[edge.source].push_back(child);
   const auto change_of = [&](const std::string& child) { return edges_.at(child).delays.Change(); };
   std::map<Source, std::pair<std::int64_t, std::string>> changes;  // the middle one of each topic
@@ -225,34 +225,42 @@ void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* 
   }
 }
 
-void LinkMotion::AddSetBackFindings(const std::set<std::string>& above, Findings* findings) const {
-  // The edges of one topic have it together.
-  using Alike = std::tuple<Source, std::uint64_t, std::int64_t>;
-  std::map<Alike, std::vector<std::string>> alike;
-  for (const auto& [child, edge] : edges_) {
-    if (!edge.is_followed || above.count(child) > 0 || edge.set_back == 0) continue;
-    alike[{edge.source, edge.set_back, edge.first_set_back / 500'000'000}].push_back(child);
-  }
-  for (const auto& [key, children] : alike) {
-    const Edge& edge = edges_.at(children[0]);
-    Finding finding;
-    finding.kind = "clock_set_back";
-    finding.subject = SubjectOf(children);
-    finding.topic = ToString(edge.source);
-    finding.count = edge.set_back;
-    finding.first = edge.first_set_back;
-    finding.worst = edge.most_set_back_at;
-    finding.size = ToSeconds(edge.most_set_back);
-    finding.unit = "s";
-    finding.what =
-        "has stamps that go back by " + Printed("%.3g s", finding.size) +
-        (edge.set_back > 1 ? " and less, " + std::to_string(edge.set_back) + " times" : "") +
-        ": that time is there twice, its second samples are left out, and the pose "
-        "leaps behind them";
-    finding.remedy =
-        "was a clock set meanwhile? cut the recording there (--start, --duration), or " +
-        UseRecordTimes();
-    findings->push_back(std::move(finding));
+void LinkMotion::AddSetClockFindings(const std::set<std::string>& above, Findings* findings) const {
+  for (const bool back : {true, false}) {
+    // The edges of one topic have it together.
+    using Alike = std::tuple<Source, std::uint64_t, std::int64_t>;
+    std::map<Alike, std::vector<std::string>> alike;
+    for (const auto& [child, edge] : edges_) {
+      const std::uint64_t count = back ? edge.set_back : edge.set_forward;
+      if (!edge.is_followed || above.count(child) > 0 || count == 0) continue;
+      const std::int64_t first = back ? edge.first_set_back : edge.first_set_forward;
+      alike[{edge.source, count, first / 500'000'000}].push_back(child);
+    }
+    for (const auto& [key, children] : alike) {
+      const Edge& edge = edges_.at(children[0]);
+      Finding finding;
+      finding.kind = back ? "clock_set_back" : "clock_jump";
+      finding.subject = SubjectOf(children);
+      finding.topic = ToString(edge.source);
+      finding.count = back ? edge.set_back : edge.set_forward;
+      finding.first = back ? edge.first_set_back : edge.first_set_forward;
+      finding.worst = back ? edge.most_set_back_at : edge.most_set_forward_at;
+      finding.size = ToSeconds(back ? edge.most_set_back : edge.most_set_forward);
+      finding.limit = back ? 0 : ToSeconds(kSetForward);
+      finding.unit = "s";
+      finding.what =
+          std::string("has stamps that ") + (back ? "go back" : "leap ahead") + " by " +
+          Printed("%.3g s", finding.size) +
+          (finding.count > 1 ? " and less, " + std::to_string(finding.count) + " times" : "") +
+          (back ? ": that time is there twice, its second samples are left out, and the "
+                  "pose leaps behind them"
+                : ", and messages that were recorded as evenly as before: its motion is "
+                  "stretched there");
+      finding.remedy =
+          "was a clock set meanwhile? cut the recording there (--start, --duration), or " +
+          UseRecordTimes();
+      findings->push_back(std::move(finding));
+    }
   }
 }
 

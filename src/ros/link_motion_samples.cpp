@@ -21,6 +21,8 @@ constexpr double kLongInterval = 1.5, kTooClose = 0.25;
 constexpr std::uint64_t kKnowsTheRate = 4;  // samples
 // Later samples with earlier stamps say that its own is wrong.
 constexpr int kOvertaken = 3;
+// How soon messages come after their stamps is known after so many samples.
+constexpr std::uint64_t kKnowsTheDelay = 20;
 // A message that is recorded twice has the same pose both times [m], [rad].
 constexpr double kSamePose = 1e-6;
 // More than kBackwardsJump holds at any rate.
@@ -271,6 +273,17 @@ void LinkMotion::Take(Edge* edge, const std::string& child, const Sample& sample
   JudgeSaid(edge, child, sample);
   if (sample.recorded > 0) {
     const std::int64_t delay = sample.recorded - stamp;
+    const auto length = static_cast<double>(stamp - edge->last);
+    // No message comes sooner after its stamp than all others did.
+    if (edge->delays.count() >= kKnowsTheDelay && edge->least_delay - delay > kSetForward &&
+        length > kLongInterval * edge->usual_interval && length * 1e-9 <= options_.max_gap) {
+      if (edge->set_forward++ == 0) edge->first_set_forward = edge->last;
+      if (edge->least_delay - delay > edge->most_set_forward) {
+        edge->most_set_forward = edge->least_delay - delay;
+        edge->most_set_forward_at = edge->last;
+      }
+      if (edge->judged) judge_->Restart(edge->judged);
+    }
     if (edge->delays.count() == 0 || delay < edge->least_delay) edge->least_delay = delay;
     edge->delays.Add(stamp, sample.recorded);
   }

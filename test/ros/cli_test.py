@@ -219,8 +219,9 @@ cables:
             self.assertAlmostEqual(finding['worst'], 102)
 
     def test_a_snapshot_has_nothing_to_simulate(self):
+        # No multiple of a time step.
         bag = self.write_messages('instant.bag',
-                                  [('/tf', 100, self.moved('odom', 'base_link', 100, 1))])
+                                  [('/tf', 100.0012, self.moved('odom', 'base_link', 100.0012, 1))])
         for name, text in (('v.urdf', self.CART), ('c.yaml', self.ARCH % 'base_link')):
             with open(self.path(name), 'w') as target:
                 target.write(text)
@@ -229,6 +230,7 @@ cables:
         code, text = run('cable_check', *inputs)
         self.assertEqual(code, 0, text)
         self.assertIn('warning: the recording has one instant only', text)
+        self.assertIn('clamps 200.0 mm apart (50 % of its length)', text)
         code, text = run('cable_replay', *inputs, '--output', self.path('out.bag'))
         self.assertEqual(code, 2, text)
         self.assertIn('there is no motion to simulate', text)

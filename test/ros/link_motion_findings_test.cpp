@@ -245,6 +245,31 @@ TEST_F(LinkMotionTest, AClockThatWasSetBackIsToldInsteadOfJumps) {
   }
 }
 
+TEST_F(LinkMotionTest, AClockThatWasSetForwardByLessThanAGapIsTold) {
+  for (const bool set : {true, false}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    for (int i = 0; i < 600; ++i) {
+      // Otherwise these messages are lost, and the next one comes early.
+      if (!set && i > 250 && i < 270) continue;
+      const std::int64_t now = kStart + i * kPeriod;
+      const std::int64_t recorded = now + 5'000'000 + (i * 7 % 11) * 1'000'000;
+      links.Ingest(
+          Transform("odom", "base", now + (set && i > 250 ? 200'000'000 : 0), BodyPose(0.01 * i)),
+          false, "", recorded);
+      links.Ingest(Joints(now, Travel(0.01 * i)), "", recorded);
+    }
+    links.Finish();
+    const Findings findings = links.MotionFindings("odom");
+    const Finding* jump = FindKind(findings, "clock_jump");
+    ASSERT_EQ(jump != nullptr, set);
+    if (!jump) continue;
+    EXPECT_EQ(jump->subject, "odom -> base");
+    EXPECT_EQ(jump->worst, kStart + 250 * kPeriod);
+    EXPECT_NEAR(jump->size, 0.2, 0.02);
+    EXPECT_EQ(FindKind(findings, "clock_drifts"), nullptr);
+  }
+}
+
 TEST_F(LinkMotionTest, MessagesThatComeTooLateInABatchAreNoClockThatWasSetBack) {
   LinkMotion links(vehicle_, needed_, options_);
   for (int i = 0; i < 400; ++i) {

@@ -90,6 +90,8 @@ class LinkMotion {
     std::int64_t hole_end = 0;                  ///< the stamp behind the last long interval [ns]
     std::uint64_t set_back = 0;                 ///< how often its clock was
     std::int64_t first_set_back = 0, most_set_back = 0, most_set_back_at = 0;  ///< [ns]
+    std::uint64_t set_forward = 0;  ///< the same by less than a gap
+    std::int64_t first_set_forward = 0, most_set_forward = 0, most_set_forward_at = 0;  ///< [ns]
     GapRule gap_rule;
     RecordingJudge::Edge* judged = nullptr;
     EdgeSmoother* smoother = nullptr;
@@ -166,6 +168,9 @@ class LinkMotion {
   const Warnings& warnings() const { return warnings_; }
 
  private:
+  /// From which on a clock is said to have been set forward [ns].
+  static constexpr std::int64_t kSetForward = 50'000'000;
+
   struct Step {
     std::string child, parent;
     const JointModel* joint;  // null where the recording alone knows this edge
@@ -217,7 +222,7 @@ class LinkMotion {
   /// Frames that move and lead to no link, where the vehicle's root stands still.
   void AddUnconnectedFindings(Findings* findings) const;
   void AddDriftFindings(const std::set<std::string>& above, Findings* findings) const;
-  void AddSetBackFindings(const std::set<std::string>& above, Findings* findings) const;
+  void AddSetClockFindings(const std::set<std::string>& above, Findings* findings) const;
   /// When what moves below `above` was recorded [ns]; where nothing does, all that was.
   std::pair<std::int64_t, std::int64_t> Recorded(const std::set<std::string>& above) const;
   void AddClockFindings(const std::set<std::string>& above, Findings* findings) const;
