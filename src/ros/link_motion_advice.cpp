@@ -254,7 +254,7 @@ void LinkMotion::AddSetClockFindings(const std::set<std::string>& above, Finding
           (finding.count > 1 ? " and less, " + std::to_string(finding.count) + " times" : "") +
           (back ? ": that time is there twice, its second samples are left out, and the "
                   "pose leaps behind them"
-                : ", and messages that were recorded as evenly as before: its motion is "
+                : ", though messages were recorded as evenly as before: its motion is "
                   "stretched there");
       finding.remedy =
           "was a clock set meanwhile? cut the recording there (--start, --duration), or " +

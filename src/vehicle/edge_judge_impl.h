@@ -2,6 +2,8 @@
 // edge_findings.cpp.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
