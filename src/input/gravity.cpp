@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <set>
 
 #include "cosserat_cable/input/number_text.h"
@@ -23,6 +24,17 @@ constexpr double kLean = 45 * M_PI / 180;
 constexpr double kFeltAtLeast = 1;
 // Accelerometers are calibrated far better, but their mean also holds the ride's.
 constexpr double kSizeDiffers = 0.3;
+// A size that is so near to what gravity has in another unit, or elsewhere, is that.
+constexpr double kSameSize = 0.08;
+
+struct Unit {
+  const char* name;
+  double size;  // [m/s^2]
+};
+constexpr Unit kUnits[] = {
+    {"g", 9.80665}, {"cm/s^2 or thousandths of g", 0.01}, {"mm/s^2", 0.001}, {"ft/s^2", 0.3048}};
+// The moon, Mars, Jupiter [m/s^2].
+constexpr double kElsewhere[] = {1.62, 3.71, 24.8};
 
 std::vector<std::string> Split(const std::string& text, const char* separators) {
   std::vector<std::string> parts(1);
@@ -156,13 +168,42 @@ std::string GravityHint(const Eigen::Vector3d& gravity, const std::string& frame
 
 std::string GravityHint(const Eigen::Vector3d& gravity, const std::string& frame,
                         const Eigen::Vector3d& felt_W, const std::string& source) {
-  const Eigen::Vector3d felt = -felt_W;  // at rest an accelerometer feels what holds it up
-  if (!felt.allFinite() || felt.norm() < kFeltAtLeast || gravity.norm() == 0) return "";
+  Eigen::Vector3d felt = -felt_W;  // at rest an accelerometer feels what holds it up
+  const double size = felt.norm(), expected = gravity.norm();
+  if (!felt.allFinite() || size == 0 || expected == 0) return "";
+  // Without gravity it may have any direction.
+  const double from_axis =
+      std::min(AngleBetween(gravity, felt), AngleBetween(gravity, Eigen::Vector3d(-felt)));
+  std::string unit;
+  for (const Unit& other : kUnits) {
+    if (std::abs(other.size * size - expected) > kSameSize * expected || from_axis > kLean)
+      continue;
+    unit = other.name;
+    felt *= other.size;
+  }
+  if (unit.empty() && size < kFeltAtLeast) return "";
   const bool leans = AngleBetween(gravity, felt) > kLean;
-  const bool differs = std::abs(felt.norm() - gravity.norm()) > kSizeDiffers * gravity.norm();
+  const bool differs = std::abs(felt.norm() - expected) > kSizeDiffers * expected;
+  if (!unit.empty()) {
+    const std::string text = source + " has the size " + FormatRounded(size, 3) + ", gravity has " +
+                             FormatRounded(expected, 3) + " m/s^2: is it in " + unit +
+                             "? sensor_msgs/Imu is in m/s^2";
+    if (!leans) return text;
+    return text + "; as such it says " + GravityText(felt, frame) + ": --gravity " +
+           GravityOption(Rounded(felt)) + " would fit it";
+  }
   if (!leans && !differs) return "";
-  return source + " says " + GravityText(felt, frame) + ", but " + GravityText(gravity, frame) +
-         " is taken: --gravity " + GravityOption(Rounded(felt)) + " would fit it";
+  const bool is_known =
+      !differs || std::any_of(std::begin(kElsewhere), std::end(kElsewhere), [&](double elsewhere) {
+        return std::abs(size - elsewhere) < kSameSize * elsewhere;
+      });
+  const std::string text = source + " says " + GravityText(felt, frame) + ", but " +
+                           GravityText(gravity, frame) + " is taken";
+  if (is_known) return text + ": --gravity " + GravityOption(Rounded(felt)) + " would fit it";
+  const std::string doubt = ": is it raw, in another unit or scaled? sensor_msgs/Imu is in m/s^2";
+  if (!leans) return text + doubt;
+  return text + doubt + ". Its direction would be that of --gravity " +
+         GravityOption(Rounded(expected * felt.normalized()));
 }
 
 }  // namespace cosserat_cable

@@ -29,8 +29,8 @@ class ClampSurvey {
     }
   }
 
-  /// As far as the motion is known.
-  void Follow() {
+  /// As far as the motion is known. `all_read`: a recording of one instant has no other.
+  void Follow(bool all_read) {
     if (links_.clear_count() != clears_) {
       clears_ = links_.clear_count();
       started_ = false;
@@ -38,7 +38,7 @@ class ClampSurvey {
     std::int64_t begin = 0, ready = 0;
     if (!links_.Missing().empty() || !links_.Range(&begin, &ready)) return;
     if (!started_) {
-      next_ = (begin + dt_ - 1) / dt_ * dt_;
+      next_ = all_read && begin == ready ? begin : (begin + dt_ - 1) / dt_ * dt_;
       if (next_ > ready) return;
       started_ = true;
       for (ClampJudge& judge : judges_) judge.Restart();
@@ -96,14 +96,14 @@ std::vector<ClampJudge> FollowClamps(const BagReader& bags, std::int64_t from, s
   std::int64_t follow_at = from + kReadAhead;
   bags.ForEach(from, to, [&](const BagMessage& message) {
     if (message.time >= follow_at) {
-      survey.Follow();
+      survey.Follow(false);
       follow_at = message.time + kReadAhead;
     }
     Feed(message, &links);
     return true;
   });
   links.Finish();
-  survey.Follow();
+  survey.Follow(true);
   return survey.judges();
 }
 

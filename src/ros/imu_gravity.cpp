@@ -74,6 +74,7 @@ Eigen::Vector3d MeanInWorld(const Sensor& sensor, const std::string& frame, cons
   LinkMotionOptions link_options = options.links;
   link_options.judge = false;
   link_options.world_frame = survey.world;
+  link_options.constants = survey.constants;
   LinkMotion links(vehicle, {frame}, link_options);
   bags.ForEach(survey.from, std::min(survey.to, survey.from + kSpan), [&](const BagMessage& m) {
     if (m.tf) links.Ingest(*m.tf, m.is_static);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <limits>
@@ -25,6 +26,8 @@ namespace {
 constexpr std::int64_t kSurveyHistory = 5'000'000'000;  // [ns]
 // What is older is let go of this often: each time costs a walk over all edges.
 constexpr std::uint64_t kDropInterval = 100;  // [messages]
+// How often it is looked whether the vehicle stands upright [ns].
+constexpr std::int64_t kLookInterval = 20'000'000;
 
 std::string Join(const std::vector<std::string>& words) {
   std::string text;
@@ -104,20 +107,20 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   // Who says that gravity points elsewhere knows what is up.
   UprightJudge upright(options.gravity_W == kGravityDown ? options.gravity_W
                                                          : Eigen::Vector3d::Zero());
+  std::int64_t looked = 0;
   const auto look = [&] {
+    if (std::abs(links.last_stamp() - looked) < kLookInterval) return;
+    looked = links.last_stamp();
     if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
       upright.Add(links.last_stamp(), X_WR->q);
   };
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &links);
-    if (++messages % kDropInterval == 0) {
-      links.DropBefore(links.last_stamp() - kSurveyHistory);
-      look();
-    }
+    if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
+    look();
     return true;
   });
   links.Finish();
-  look();
   for (const std::string& reason : links.Missing()) {
     problems->Add(all, reason);
   }
@@ -142,6 +145,15 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
     if (above->second.is_followed) survey.gaps -= above->second.gaps;
     above->second.is_followed = false;
   }
+  survey.constants = links.Constants(survey.world);
+  for (const ConstantEdge& constant : survey.constants)
+    survey.notes.push_back(constant.parent + " -> " + constant.child + " (" +
+                           ToString(LinkMotion::Source::kTf, bags.topics()) +
+                           ") never changes, and is sent every " +
+                           FormatRounded(constant.interval, 3) +
+                           " s: it is taken to hold in all of the recording, also before its first "
+                           "sample and after its last one; " +
+                           bags.topics().tf_static() + " is for such transforms");
   bool nothing = false;
   survey.findings = links.CoverageFindings(survey.world, &nothing);
   for (Finding& finding : links.MotionFindings(survey.world))
@@ -166,24 +178,26 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   }
 
   link_options.world_frame = survey.world;
+  link_options.constants = survey.constants;
   link_options.judge = false;
   LinkMotion again(inputs->vehicle, needed, link_options);
   const auto dt = static_cast<std::int64_t>(options.dt * 1e9);
-  const auto known = [&] {
+  const auto known = [&](bool all_read) {
     std::int64_t begin = 0, ready = 0;
     if (!again.Missing().empty() || !again.Range(&begin, &ready)) return false;
-    survey.first_step = (begin + dt - 1) / dt * dt;
+    // A recording of one instant has no other.
+    survey.first_step = all_read && begin == ready ? begin : (begin + dt - 1) / dt * dt;
     return survey.first_step <= ready;
   };
   bool done = false;
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &again);
-    done = known();
+    done = known(false);
     return !done;
   });
   if (!done) {
     again.Finish();
-    done = known();
+    done = known(true);
   }
   if (!done) {
     for (std::string& reason : links.Apart()) problems->Add(all, std::move(reason));
@@ -194,6 +208,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   if (paths.follow_clamps) {
     EngineOptions followed = options;
     followed.links.world_frame = survey.world;
+    followed.links.constants = survey.constants;
     survey.clamps = FollowClamps(bags, survey.from, survey.to, inputs->vehicle,
                                  inputs->cables.cables, followed);
     for (const ClampJudge& clamps : survey.clamps)

@@ -53,6 +53,10 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
                Source::kUrdf);
     }
   }
+  for (const ConstantEdge& constant : options_.constants) {
+    AddFixed(constant.parent, constant.child, constant.X_PC, Source::kTf);
+    edges_.at(constant.child).is_constant = true;
+  }
   UpdateTree();
 }
 
@@ -230,6 +234,7 @@ Findings LinkMotion::MotionFindings(const std::string& world) const {
   const std::set<std::string> above = Above(world);
   AddClockFindings(above, &findings);
   AddDriftFindings(above, &findings);
+  AddSetClockFindings(above, &findings);
   AddGapFindings(above, &findings);
   AddUnconnectedFindings(&findings);
   for (Finding& finding : judge_->Report(WayAboveVehicle(), world))
@@ -246,6 +251,10 @@ std::string LinkMotion::SmoothWorld() const {
 std::vector<std::string> LinkMotion::Missing() const {
   std::set<std::string> reasons;
   if (world_.empty()) reasons.insert(NoCommonRoot());
+  if (unusable_ > 0 && usable_ == 0)
+    reasons.insert("no transform of " + ToString(Source::kTf) + " can be used, of " +
+                   std::to_string(unusable_) + " (the first: " + why_unusable_ +
+                   "): publish poses that are known only");
   for (const std::string& link : links_) {
     const std::vector<Step> way = Ascend(link);
     const std::string root = way.empty() ? link : way.back().parent;
@@ -307,8 +316,8 @@ std::optional<Pose> LinkMotion::LatestPose(const std::string& ancestor,
   for (std::size_t depth = 0; child != ancestor; ++depth) {
     const auto edge = edges_.find(child);
     if (edge == edges_.end() || depth > kMaxDepth) return std::nullopt;
-    const bool is_fixed =
-        edge->second.source == Source::kUrdf || edge->second.source == Source::kTfStatic;
+    const bool is_fixed = edge->second.source == Source::kUrdf ||
+                          edge->second.source == Source::kTfStatic || edge->second.is_constant;
     if (!is_fixed && edge->second.samples == 0) return std::nullopt;
     X = edge->second.last_pose * X;
     child = edge->second.parent;

@@ -22,6 +22,8 @@ constexpr double kSameClock = 0.15, kSameClockAbove = 1.0;
 constexpr std::uint64_t kFewestDelays = 5;
 // Between the begin of a recording and its end, clocks stay together within this [s].
 constexpr double kSameChange = 0.1;
+// A constant transform holds outside its samples for so many of its intervals.
+constexpr double kHolds = 1.5;
 
 double ToSeconds(std::int64_t time) { return static_cast<double>(time) * 1e-9; }
 
@@ -187,7 +189,9 @@ void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* 
   if (options_.topics.use_record_times) return;
   std::map<Source, std::vector<std::string>> topics;
   for (const auto& [child, edge] : edges_)
-    if (edge.is_followed && above.count(child) == 0 && edge.delays.count() > 0)
+    // A clock that was set is told as such.
+    if (edge.is_followed && above.count(child) == 0 && edge.delays.count() > 0 &&
+        edge.set_back + edge.set_forward == 0)
       topics[edge.source].push_back(child);
   const auto change_of = [&](const std::string& child) { return edges_.at(child).delays.Change(); };
   std::map<Source, std::pair<std::int64_t, std::string>> changes;  // the middle one of each topic
@@ -218,6 +222,45 @@ void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* 
     finding.limit = kSameChange;
     finding.unit = "s";
     findings->push_back(std::move(finding));
+  }
+}
+
+void LinkMotion::AddSetClockFindings(const std::set<std::string>& above, Findings* findings) const {
+  for (const bool back : {true, false}) {
+    // The edges of one topic have it together.
+    using Alike = std::tuple<Source, std::uint64_t, std::int64_t>;
+    std::map<Alike, std::vector<std::string>> alike;
+    for (const auto& [child, edge] : edges_) {
+      const std::uint64_t count = back ? edge.set_back : edge.set_forward;
+      if (!edge.is_followed || above.count(child) > 0 || count == 0) continue;
+      const std::int64_t first = back ? edge.first_set_back : edge.first_set_forward;
+      alike[{edge.source, count, first / 500'000'000}].push_back(child);
+    }
+    for (const auto& [key, children] : alike) {
+      const Edge& edge = edges_.at(children[0]);
+      Finding finding;
+      finding.kind = back ? "clock_set_back" : "clock_jump";
+      finding.subject = SubjectOf(children);
+      finding.topic = ToString(edge.source);
+      finding.count = back ? edge.set_back : edge.set_forward;
+      finding.first = back ? edge.first_set_back : edge.first_set_forward;
+      finding.worst = back ? edge.most_set_back_at : edge.most_set_forward_at;
+      finding.size = ToSeconds(back ? edge.most_set_back : edge.most_set_forward);
+      finding.limit = back ? 0 : ToSeconds(kSetForward);
+      finding.unit = "s";
+      finding.what =
+          std::string("has stamps that ") + (back ? "go back" : "leap ahead") + " by " +
+          Printed("%.3g s", finding.size) +
+          (finding.count > 1 ? " and less, " + std::to_string(finding.count) + " times" : "") +
+          (back ? ": that time is there twice, its second samples are left out, and the "
+                  "pose leaps behind them"
+                : ", though messages were recorded as evenly as before: its motion is "
+                  "stretched there");
+      finding.remedy =
+          "was a clock set meanwhile? cut the recording there (--start, --duration), or " +
+          UseRecordTimes();
+      findings->push_back(std::move(finding));
+    }
   }
 }
 
@@ -288,29 +331,58 @@ void LinkMotion::AddUnconnectedFindings(Findings* findings) const {
   findings->push_back(std::move(finding));
 }
 
-Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) const {
-  *nothing = false;
-  const std::set<std::string> above = Above(world);
-  std::map<std::pair<Source, std::pair<std::int64_t, std::int64_t>>, std::vector<std::string>>
-      alike;
+std::pair<std::int64_t, std::int64_t> LinkMotion::Recorded(
+    const std::set<std::string>& above) const {
   constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
-  std::int64_t first = kNever, last = 0, begin = 0, end = kNever;
+  std::int64_t first = kNever, last = 0, begin = first_stamp_, end = last_stamp_;
   for (const auto& [child, edge] : edges_) {
     if (!edge.is_followed || above.count(child) > 0 || edge.samples == 0) continue;
-    alike[{edge.source, {edge.first, edge.last}}].push_back(child);
-    begin = std::max(begin, edge.first);
-    end = std::min(end, edge.last);
+    begin = std::min(begin, edge.first);
+    end = std::max(end, edge.last);
     // Senders of constant transforms stamp them ahead: how long the recording is, others say.
     if (!edge.moves) continue;
     first = std::min(first, edge.first);
     last = std::max(last, edge.last);
   }
+  return last > 0 ? std::make_pair(first, last) : std::make_pair(begin, end);
+}
+
+std::vector<ConstantEdge> LinkMotion::Constants(const std::string& world) const {
+  std::vector<ConstantEdge> constants;
+  if (clear_count_ > 0) return constants;
+  const std::set<std::string> above = Above(world);
+  const auto [first, last] = Recorded(above);
+  for (const auto& [child, edge] : edges_) {
+    const bool is_constant = edge.source == Source::kTf && edge.is_followed && !edge.moves &&
+                             edge.samples > 1 && above.count(child) == 0;
+    const bool is_whole = edge.first <= first && edge.last >= last;
+    const double holds = kHolds * static_cast<double>(edge.longest_interval);
+    if (!is_constant || is_whole || static_cast<double>(edge.first - first) > holds ||
+        static_cast<double>(last - edge.last) > holds)
+      continue;
+    constants.push_back({edge.parent, child, edge.last_pose, ToSeconds(edge.longest_interval)});
+  }
+  return constants;
+}
+
+Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) const {
+  *nothing = false;
+  const std::set<std::string> above = Above(world);
+  std::map<std::pair<Source, std::pair<std::int64_t, std::int64_t>>, std::vector<std::string>>
+      alike;
+  std::set<std::string> hold;
+  for (const ConstantEdge& constant : Constants(world)) hold.insert(constant.child);
+  std::int64_t begin = 0, end = std::numeric_limits<std::int64_t>::max();
+  for (const auto& [child, edge] : edges_) {
+    if (!edge.is_followed || above.count(child) > 0 || edge.samples == 0 || hold.count(child) > 0)
+      continue;
+    alike[{edge.source, {edge.first, edge.last}}].push_back(child);
+    begin = std::max(begin, edge.first);
+    end = std::min(end, edge.last);
+  }
   // After a loop only its last part is known here.
   if (alike.empty() || clear_count_ > 0) return {};
-  if (last == 0) {
-    first = std::min(first_stamp_, begin);
-    last = std::max(last_stamp_, end);
-  }
+  const auto [first, last] = Recorded(above);
   const double whole = ToSeconds(last - first);
   const double kept = ToSeconds(end - begin);
   *nothing = kept <= 0 && whole > kInstant;
@@ -318,7 +390,7 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
     Finding finding;
     finding.kind = "one_instant";
     finding.subject = "the recording";
-    finding.what = "has one instant only: cables settle, and no time is simulated";
+    finding.what = "has one instant only: there is no motion to simulate";
     finding.remedy = "record the motion, not only where the vehicle stands";
     finding.count = 1;
     finding.first = finding.worst = first;

@@ -21,6 +21,12 @@ constexpr double kLongInterval = 1.5, kTooClose = 0.25;
 constexpr std::uint64_t kKnowsTheRate = 4;  // samples
 // Later samples with earlier stamps say that its own is wrong.
 constexpr int kOvertaken = 3;
+// How soon messages come after their stamps is known after so many samples.
+constexpr std::uint64_t kKnowsTheDelay = 20;
+// A message that is recorded twice has the same pose both times [m], [rad].
+constexpr double kSamePose = 1e-6;
+// More than kBackwardsJump holds at any rate.
+constexpr std::size_t kMostOlder = 1000;
 constexpr std::int64_t kDelayRounding = 1'000'000;  // [ns]
 // More bad stamps are no single ones: then all samples count, as they are.
 constexpr std::uint64_t kFewBadStamps = 4;
@@ -84,6 +90,7 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
     JudgeRejected(parent, child, stamp, X_PC);
     return;
   }
+  if (edge->is_constant) return;
   Sample sample;
   sample.stamp = stamp;
   sample.X_PC = X_PC;
@@ -103,18 +110,25 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
       edge->samples > 0 && (stamp == edge->last || (edge->held && stamp == edge->held->stamp));
   if (repeats || (edge->samples > 0 && stamp < edge->last)) {
     JudgeSaid(edge, child, sample);
-    Warnings::Event event =
-        Event("'" + child + "'", "frame '" + child + "' by " + ToString(source),
-              repeats ? "it is left out: do two publishers send it, or is a message recorded twice?"
-                      : "it is left out: are stamps late or early, or do two publishers send it?",
-              stamp);
-    if (!repeats) {
+    const Pose& before = edge->held ? edge->held->X_PC : edge->last_pose;
+    const bool is_same =
+        (X_PC.p - before.p).norm() < kSamePose && before.q.angularDistance(X_PC.q) < kSamePose;
+    Warnings::Event event = Event(
+        "'" + child + "'", "frame '" + child + "' by " + ToString(source),
+        !repeats ? "it is left out: are stamps late or early, or do two publishers send it?"
+        : is_same
+            ? "it is left out: do two publishers send it, or is a message recorded twice?"
+            : "it is left out, though its pose is another one: are poses stamped when they are "
+              "sent, in bursts, or do two publishers disagree? stamp them when they are "
+              "measured",
+        stamp);
+    if (repeats && edge->older.empty()) {
+      warnings_.Count("sample repeated with the same stamp", event);
+    } else {
       event.size = static_cast<double>(edge->last - stamp) * 1e-9;
       event.unit = "s";
+      CountOlder(edge, event, stamp);
     }
-    warnings_.Count(
-        repeats ? "sample repeated with the same stamp" : "sample older than the one before it",
-        event);
     return;
   }
   if (!early_.empty()) ForgetEarly(child);
@@ -125,6 +139,41 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
     return;
   }
   Take(edge, child, sample);
+}
+
+void LinkMotion::CountOlder(Edge* edge, const Warnings::Event& event, std::int64_t stamp) {
+  const bool goes_on = stamp > edge->newest_older && edge->older.size() < kMostOlder;
+  if (!edge->older.empty() && !goes_on) ResolveOlder(edge);
+  if (edge->older.empty()) edge->oldest = stamp;
+  edge->newest_older = stamp;
+  edge->older.push_back(event);
+}
+
+// A clock that was set back repeats a stretch of time that has its samples, and goes on from there.
+void LinkMotion::ResolveOlder(Edge* edge) {
+  if (edge->older.empty()) return;
+  const double usual = edge->usual_interval;
+  const auto count = static_cast<double>(edge->older.size());
+  const auto overlap = static_cast<double>(edge->last - edge->oldest);
+  const bool is_set_back = edge->older.size() >= kOvertaken && edge->hole_end <= edge->oldest &&
+                           static_cast<double>(edge->last - edge->newest_older) < 2 * usual &&
+                           overlap < 2 * count * usual && overlap > count * usual / 2;
+  if (is_set_back) {
+    const auto size = edge->last + static_cast<std::int64_t>(usual) - edge->oldest;
+    if (edge->set_back++ == 0) edge->first_set_back = edge->last;
+    if (size > edge->most_set_back) {
+      edge->most_set_back = size;
+      edge->most_set_back_at = edge->last;
+    }
+    // What it does behind that has nothing to do with what it did before.
+    if (edge->judged) judge_->Restart(edge->judged);
+  } else {
+    for (const Warnings::Event& event : edge->older)
+      warnings_.Count(event.size > 0 ? "sample older than the one before it"
+                                     : "sample repeated with the same stamp",
+                      event);
+  }
+  edge->older.clear();
 }
 
 void LinkMotion::ResolveHeld(Edge* edge, const std::string& child, const Sample& sample) {
@@ -220,9 +269,21 @@ void LinkMotion::JudgeSaid(Edge* edge, const std::string& child, const Sample& s
 
 void LinkMotion::Take(Edge* edge, const std::string& child, const Sample& sample) {
   const std::int64_t stamp = sample.stamp;
+  ResolveOlder(edge);
   JudgeSaid(edge, child, sample);
   if (sample.recorded > 0) {
     const std::int64_t delay = sample.recorded - stamp;
+    const auto length = static_cast<double>(stamp - edge->last);
+    // No message comes sooner after its stamp than all others did.
+    if (edge->delays.count() >= kKnowsTheDelay && edge->least_delay - delay > kSetForward &&
+        length > kLongInterval * edge->usual_interval && length * 1e-9 <= options_.max_gap) {
+      if (edge->set_forward++ == 0) edge->first_set_forward = edge->last;
+      if (edge->least_delay - delay > edge->most_set_forward) {
+        edge->most_set_forward = edge->least_delay - delay;
+        edge->most_set_forward_at = edge->last;
+      }
+      if (edge->judged) judge_->Restart(edge->judged);
+    }
     if (edge->delays.count() == 0 || delay < edge->least_delay) edge->least_delay = delay;
     edge->delays.Add(stamp, sample.recorded);
   }
@@ -241,6 +302,7 @@ void LinkMotion::Take(Edge* edge, const std::string& child, const Sample& sample
     const std::int64_t interval = stamp - edge->last;
     const auto length = static_cast<double>(interval);
     edge->longest_interval = std::max(edge->longest_interval, interval);
+    if (length > kLongInterval * edge->usual_interval) edge->hole_end = stamp;
     if (edge->gap_rule.IsGap(length * 1e-9, options_.max_gap, edge->last_pose, sample.X_PC)) {
       if (edge->gaps++ == 0) edge->first_gap = edge->last;
       if (interval > edge->longest_gap) {
@@ -330,17 +392,24 @@ void LinkMotion::Ingest(const tf2_msgs::TFMessage& message, bool is_static,
     const std::string edge = "'" + parent + "' -> '" + child + "'";
     Pose X_PC;
     message_stamp_ = is_static ? 0 : ToNanoseconds(transform.header.stamp);
+    const auto leave_out = [&](const std::string& why) {
+      if (is_static) return;
+      if (unusable_++ == 0) why_unusable_ = why;
+    };
     if (parent.empty() || child.empty() || parent == child) {
       warnings_.Count(std::string("transform without proper frame ids by ") + ToString(source),
                       Event(edge, edge, "it is left out: name both frames where it is published"));
+      leave_out(edge);
     } else if (!ToPose(transform.transform, &X_PC)) {
       warnings_.Count(
           std::string("transform that is no rotation or not finite by ") + ToString(source),
           Event(edge, edge + BadTransform(transform.transform),
                 "it is left out: publish poses that are known only, with quaternions of length 1"));
+      leave_out(edge + BadTransform(transform.transform));
     } else if (is_static) {
       AddFixed(parent, child, X_PC, source);
     } else {
+      ++usable_;
       AddSample(parent, child, ToNanoseconds(transform.header.stamp), X_PC, source);
     }
   }
@@ -412,6 +481,7 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message, const std::strin
 void LinkMotion::Finish() {
   for (auto& [child, edge] : edges_) {
     if (!early_.empty()) ForgetEarly(child);
+    ResolveOlder(&edge);
     if (!edge.held) continue;
     const Sample held = *edge.held;
     edge.held.reset();
@@ -427,6 +497,7 @@ void LinkMotion::Finish() {
     smoother.Finish(
         [&, name = child](std::int64_t stamp, const Pose& X) { Deliver(edge, name, stamp, X); });
   }
+  if (judge_) judge_->Finish();
   tree_.Finish();
 }
 
@@ -438,6 +509,8 @@ void LinkMotion::Clear() {
     edge.samples = 0;
     edge.usual_interval = 0;
     edge.held.reset();
+    edge.older.clear();
+    edge.hole_end = 0;
     edge.last_recorded = 0;
     edge.gap_rule = GapRule();
     edge.first = edge.last = 0;

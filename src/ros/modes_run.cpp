@@ -182,7 +182,10 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
   Place place;
   LinkMotionOptions link_options = options.engine.links;
   link_options.judge = false;
-  if (inputs.survey) link_options.world_frame = inputs.survey->world;
+  if (inputs.survey) {
+    link_options.world_frame = inputs.survey->world;
+    link_options.constants = inputs.survey->constants;
+  }
   std::optional<LinkMotion> links;
   if (options.bags.empty()) {
     if (!inputs.vehicle.root.empty())

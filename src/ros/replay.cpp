@@ -106,12 +106,16 @@ ExitCode RunReplay(ReplayOptions options) {
   CheckOutputs(options, &problems);
   options.engine.ApplyGravity(&problems);
   Inputs inputs = LoadInputs(options.inputs, options.engine, &problems);
+  if (problems.empty())
+    for (const Finding& finding : inputs.survey->findings)
+      if (finding.kind == "one_instant") problems.Add("", finding.ToString());
   if (!problems.empty()) {
     std::cerr << problems.ToString();
     return kExitBadInput;
   }
   CatchInterrupts();
   options.engine.links.world_frame = inputs.survey->world;
+  options.engine.links.constants = inputs.survey->constants;
   // The whole recording was judged by now, with what is above the inertial frame.
   options.engine.links.judge = false;
   options.engine.known = inputs.survey->findings;
@@ -127,8 +131,7 @@ ExitCode RunReplay(ReplayOptions options) {
 
   // Before anybody waits for it.
   for (const Finding& finding : inputs.survey->findings)
-    if (finding.kind == "limits_the_run" || finding.kind == "one_instant")
-      std::cerr << "warning: " << finding.ToString() << "\n";
+    if (finding.kind == "limits_the_run") std::cerr << "warning: " << finding.ToString() << "\n";
 
   CableEngine engine(inputs.vehicle, inputs.bodies, inputs.cables.cables, options.engine);
   ExitCode code = kExitDone;

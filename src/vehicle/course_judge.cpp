@@ -39,8 +39,7 @@ void CourseJudge::Add(std::int64_t stamp, const Eigen::Vector3d& p) {
 }
 
 void CourseJudge::Report(Findings* findings) const {
-  if (beyond_ < kFewestParts ||
-      static_cast<double>(beyond_) < kShare * static_cast<double>(parts_))
+  if (beyond_ < kFewestParts || static_cast<double>(beyond_) < kShare * static_cast<double>(parts_))
     return;
   Finding finding;
   finding.kind = "unit";

@@ -1,5 +1,5 @@
-// How fast one edge goes, over times in which jitter and noise even out: speeds and accelerations that
-// no vehicle has show a wrong unit.
+// How fast one edge goes, over times in which jitter and noise even out: speeds and accelerations
+// that no vehicle has show a wrong unit.
 #pragma once
 
 #include <Eigen/Core>

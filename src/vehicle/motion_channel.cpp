@@ -1,5 +1,6 @@
 #include "motion_channel.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -17,6 +18,15 @@ constexpr double kOutOfOrdinary = 8;
 // White noise of positions gives accelerations whose neighbours correlate by -2/3; a vibration at a
 // third of the sampling rate by -1/2, one that is sampled ten times a period by +0.8.
 constexpr double kAlternates = -0.55;
+// Of white noise of positions, a linear prediction from the last four accelerations leaves
+// (7 * 8) / (5 * 6) / 6 of the mean square; of a vibration, also one whose frequency changes, next
+// to nothing.
+constexpr int kPredictors = 4;
+constexpr double kWhiteNoise = 0.31, kVibration = 0.1;
+// What a vibration leaves of the recurrence a(k+1) + a(k-1) = c a(k), of the mean square.
+constexpr double kRecurs = 0.05;
+// Displacements may be off by one step of the grid each, and so their differences by two.
+constexpr double kGridSteps = 2.1;
 // A single event in a block says nothing of the other samples.
 constexpr double kOneEvent = 0.4;  // of the sum of squares
 // Stamps are the reason where samples counted out evenly are smoother by this (mean squares).
@@ -36,6 +46,17 @@ void MotionChannel::Tally::Add(std::int64_t stamp, double new_size, double new_a
     acceleration = new_acceleration;
   }
   ++count;
+}
+
+void MotionChannel::Tally::Add(const Tally& other) {
+  if (other.count == 0) return;
+  first = count == 0 ? other.first : std::min(first, other.first);
+  if (count == 0 || other.size > size) {
+    worst = other.worst;
+    size = other.size;
+    acceleration = other.acceleration;
+  }
+  count += other.count;
 }
 
 void MotionChannel::Restart() {
@@ -80,24 +101,48 @@ void MotionChannel::Add(const Eigen::Vector3d& d, double h, std::int64_t stamp) 
   if (ring_size_ == kRing) LookForJump();
 }
 
+// Whether the ring holds a vibration: with three samples in a period, one of them looks like a
+// jump.
+bool MotionChannel::IsVibration() const {
+  std::array<Eigen::Vector3d, kRing - 1> a;
+  for (int i = 0; i + 1 < kRing; ++i) a[i] = ring_[i + 1].v - ring_[i].v;
+  double products = 0, squares = 0, left = 0, all = 0;
+  for (int i = 1; i + 2 < kRing; ++i) {
+    products += a[i].dot(a[i - 1] + a[i + 1]);
+    squares += a[i].squaredNorm();
+  }
+  const double c = squares > 0 ? products / squares : 0;
+  for (int i = 1; i + 2 < kRing; ++i) {
+    left += (a[i - 1] + a[i + 1] - c * a[i]).squaredNorm();
+    all += a[i - 1].squaredNorm() + a[i + 1].squaredNorm();
+  }
+  return left < kRecurs * all;
+}
+
 // Whether the step in the middle of the ring is one.
 void MotionChannel::LookForJump() {
-  const auto change = [this](int i) { return Eigen::Vector3d(ring_[i + 1].v - ring_[i].v); };
-  const Step& middle = ring_[2];
+  constexpr int kMiddle = kRing / 2;
+  // From the step `i` before or behind the middle one to the next.
+  const auto change = [this](int i) {
+    return Eigen::Vector3d(ring_[kMiddle + i + 1].v - ring_[kMiddle + i].v);
+  };
+  const Step& middle = ring_[kMiddle];
   // A pose that is hardly another one behind a gap did not jump, however fast the motion around is.
   if (middle.h > max_gap_ &&
-      middle.d.norm() < kHardlyFarther * std::max(ring_[1].d.norm(), ring_[3].d.norm()))
+      middle.d.norm() <
+          kHardlyFarther * std::max(ring_[kMiddle - 1].d.norm(), ring_[kMiddle + 1].d.norm()))
     return;
   // Across a gap the motion is not known; above the vehicle, slow corrections are the rule.
   const double h = std::min(middle.h, max_gap_);
-  const double excess = (change(1) - change(2)).norm() / 2 * middle.h;
+  const double excess = (change(-1) - change(0)).norm() / 2 * middle.h;
   const double acceleration = excess / (h * h);
   if (excess < limits_.jump || acceleration < limits_.jump_acceleration) return;
-  const double around = std::max(change(0).norm(), change(3).norm()) * middle.h;
+  const double around = std::max(change(-2).norm(), change(1).norm()) * middle.h;
   // There and on at the same pace as before: the two changes are opposite.
-  const double taken_back = (change(1) + change(2)).norm() * middle.h;
-  if (around > kCalm * excess || taken_back > excess) return;
-  jumps_.Add(middle.stamp, excess, acceleration);
+  const double taken_back = (change(-1) + change(0)).norm() * middle.h;
+  if (around > kCalm * excess || taken_back > excess || IsVibration()) return;
+  Tally& tally = excess < kGridSteps * grid_.Candidate() ? grid_jumps_ : jumps_;
+  tally.Add(middle.stamp, excess, acceleration);
 }
 
 void MotionChannel::AddToBlock(const Step& before, const Step& step) {
@@ -120,11 +165,11 @@ void MotionChannel::AddToBlock(const Step& before, const Step& step) {
   if (block_.count == 0) block_.first = step.stamp;
   block_.squares += square;
   block_.largest = std::max(block_.largest, square);
-  if (block_.count > 0) block_.products += a.dot(block_.last);
+  if (block_.count > 0) block_.products += a.dot(block_.accelerations[block_.count - 1]);
   const bool lost = std::max(step.h, before.h) > kLostSample * std::min(step.h, before.h) &&
                     change_of_step.norm() > step.d.norm() / 4;
   block_.by_index += lost ? square : change_of_step.squaredNorm() / std::pow(h_mean, 4);
-  block_.last = a;
+  block_.accelerations[block_.count] = a;
   block_.intervals[block_.count] = step.h;
   if (++block_.count == kBlock) CloseBlock();
 }
@@ -132,14 +177,55 @@ void MotionChannel::AddToBlock(const Step& before, const Step& step) {
 void MotionChannel::CloseBlock() {
   ++blocks_;
   const double rms = std::sqrt(block_.squares / kBlock);
+  if (rms > limits_.noise) rough_.Add(block_.first, rms, std::sqrt(block_.largest));
   const bool one_event = block_.largest > kOneEvent * block_.squares;
   if (rms > limits_.lateness && block_.by_index < kMuchSmoother * block_.squares) {
     lateness_.Add(block_.first, rms, std::sqrt(block_.largest));
     worst_lateness_ = std::max(worst_lateness_, SpreadOfDelays());
-  } else if (rms > limits_.noise && !one_event && block_.products < kAlternates * block_.squares) {
-    noise_.Add(block_.first, rms, std::sqrt(block_.largest));
+  } else if (rms > limits_.noise && !one_event) {
+    const double share = UnpredictedShare();
+    const double noise = rms * std::sqrt(std::min(1.0, share / kWhiteNoise));
+    if (share < kVibration) {
+      double span = 0;
+      for (const double h : block_.intervals) span += h;
+      constexpr double kPairs = (kBlock - 1.0) / kBlock;
+      const double cosine = std::clamp(block_.products / (kPairs * block_.squares), -1.0, 1.0);
+      vibration_.Add(block_.first, rms, std::sqrt(block_.largest));
+      vibration_frequency_ =
+          std::min(vibration_frequency_, std::acos(cosine) / (2 * M_PI) * kBlock / span);
+    } else if (noise > limits_.noise && block_.products < kAlternates * block_.squares) {
+      noise_.Add(block_.first, noise, std::sqrt(block_.largest));
+    }
   }
   block_ = Block();
+}
+
+// What a linear prediction from the accelerations before, and from those behind, leaves of the mean
+// square.
+double MotionChannel::UnpredictedShare() const {
+  Eigen::Matrix<double, kPredictors, kPredictors> normal;
+  Eigen::Matrix<double, kPredictors, 1> right;
+  normal.setZero();
+  right.setZero();
+  double squares = 0;
+  const auto& a = block_.accelerations;
+  for (int k = 0; k + kPredictors < kBlock; ++k) {
+    for (const bool forward : {true, false}) {
+      const auto at = [&](int i) -> const Eigen::Vector3d& {
+        return a[static_cast<std::size_t>(forward ? k + kPredictors - i : k + i)];
+      };
+      for (int i = 0; i < kPredictors; ++i) {
+        right[i] += at(i + 1).dot(at(0));
+        for (int j = 0; j < kPredictors; ++j) normal(i, j) += at(i + 1).dot(at(j + 1));
+      }
+      squares += at(0).squaredNorm();
+    }
+  }
+  if (!(squares > 0)) return 0;
+  // A vibration alone leaves the matrix singular.
+  normal.diagonal().array() += 1e-9 * squares;
+  const Eigen::Matrix<double, kPredictors, 1> c = normal.ldlt().solve(right);
+  return std::max(0.0, 1 - c.dot(2 * right - normal * c) / squares);
 }
 
 // How far the stamps of the block are off a steady clock, from the earliest to the latest.
@@ -165,7 +251,9 @@ double MotionChannel::SpreadOfDelays() const {
 }
 
 bool MotionChannel::MovesByJumps() const {
-  return largest_change_ >= limits_.jump && largest_acceleration_ >= limits_.jump_acceleration &&
+  const bool vibrates = 2 * vibration_.count > blocks_;
+  return !vibrates && largest_change_ >= limits_.jump &&
+         largest_acceleration_ >= limits_.jump_acceleration &&
          squared_changes_ > kJumpy * squared_steps_;
 }
 

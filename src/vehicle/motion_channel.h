@@ -5,6 +5,9 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
+
+#include "step_grid.h"
 
 namespace cosserat_cable {
 
@@ -19,6 +22,8 @@ struct MotionLimits {
 
 class MotionChannel {
  public:
+  static constexpr int kBlock = 32;  ///< accelerations that are judged together
+
   /// Events of one kind.
   struct Tally {
     std::uint64_t count = 0;
@@ -27,10 +32,13 @@ class MotionChannel {
     double acceleration = 0;            ///< of the same [/s^2]
 
     void Add(std::int64_t stamp, double new_size, double new_acceleration);
+    void Add(const Tally& other);
   };
 
   MotionChannel(const MotionLimits& limits, double max_gap) : limits_(limits), max_gap_(max_gap) {}
 
+  /// The displacement between any two samples that follow each other.
+  void AddToGrid(const Eigen::Vector3d& d) { grid_.Add(d); }
   /// The displacement `d` between two samples that follow each other, `h` [s] apart, in a frame
   /// that hardly turns between two calls. `stamp`: of the later one [ns].
   void AddRaw(const Eigen::Vector3d& d, double h, std::int64_t stamp);
@@ -40,11 +48,23 @@ class MotionChannel {
   void Restart();
 
   const MotionLimits& limits() const { return limits_; }
-  const Tally& jumps() const { return jumps_; }                  ///< there and back to rest
+  /// There and back to rest, but for steps of the grid.
+  const Tally& jumps() const { return jumps_; }
+  const Tally& grid_jumps() const {
+    return grid_jumps_;
+  }  ///< of a step or two, where grid() has one
   const Tally& accelerations() const { return accelerations_; }  ///< beyond any limit
-  /// Blocks of samples; the size is the rms of the acceleration.
+  /// Blocks of samples; the size is the rms of the acceleration, of noise without the part that
+  /// what came before predicts.
   const Tally& noise() const { return noise_; }
+  /// Blocks that consist of a vibration, and the lowest frequency of these [Hz].
+  const Tally& vibration() const { return vibration_; }
+  double vibration_frequency() const { return vibration_frequency_; }
+  /// What all displacements are multiples of.
+  const StepGrid& grid() const { return grid_; }
   const Tally& lateness() const { return lateness_; }
+  /// Blocks that accelerate by more than the limit of noise, whatever they consist of.
+  const Tally& rough() const { return rough_; }
   double worst_lateness() const { return worst_lateness_; }  ///< spread of the delays [s]
   std::uint64_t blocks() const { return blocks_; }
   /// The largest displacement that counts as one of a correction, and how many there were.
@@ -53,8 +73,7 @@ class MotionChannel {
   bool MovesByJumps() const;
 
  private:
-  static constexpr int kRing = 5;    // displacements around one that may be a jump
-  static constexpr int kBlock = 32;  // accelerations
+  static constexpr int kRing = 7;  // displacements around one that may be a jump
 
   struct Step {
     Eigen::Vector3d d = Eigen::Vector3d::Zero(), v = Eigen::Vector3d::Zero();
@@ -63,8 +82,10 @@ class MotionChannel {
   };
 
   void LookForJump();
+  bool IsVibration() const;
   void AddToBlock(const Step& before, const Step& step);
   void CloseBlock();
+  double UnpredictedShare() const;
   double SpreadOfDelays() const;
 
   MotionLimits limits_;
@@ -83,14 +104,16 @@ class MotionChannel {
   struct Block {
     int count = 0;
     double squares = 0, largest = 0, products = 0, by_index = 0;
-    Eigen::Vector3d last = Eigen::Vector3d::Zero();
+    std::array<Eigen::Vector3d, kBlock> accelerations;
     std::array<double, kBlock> intervals;  // [s]
     std::int64_t first = 0;
   } block_;
   std::uint64_t blocks_ = 0;
 
-  Tally jumps_, accelerations_, noise_, lateness_;
+  StepGrid grid_;
+  Tally jumps_, grid_jumps_, accelerations_, noise_, vibration_, lateness_, rough_;
   double worst_lateness_ = 0;
+  double vibration_frequency_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace cosserat_cable

@@ -26,6 +26,12 @@ constexpr double kOnPath = 0.25;
 constexpr double kHole = 2.75;
 // Rotations between samples that are nearly half a turn apart say nothing.
 constexpr double kLargestTurn = 2.5;  // [rad]
+// A motor sets something in motion within one interval up to this speed [m/s], [rad/s]: then the
+// first sample lies on the path of the others, nearer than at their speed.
+constexpr double kStartsAtOnce[] = {2, 10};
+constexpr double kOffPath = 0.2;  // of what it is off
+// The first and last samples: so many are judged, by so many others.
+constexpr int kLongestEnd = 3, kBehind = 8;
 // An encoder's steps: so many, and the largest no more than this times the mean.
 constexpr std::uint64_t kStepsOfEncoder = 8;
 constexpr double kOneSize = 1.3;
@@ -63,6 +69,7 @@ void OutlierJudge::Restart() {
   JudgeRest();
   samples_.clear();
   next_ = kSide;
+  begins_ = true;
 }
 
 void OutlierJudge::Add(std::int64_t stamp, const Pose& X_PC) {
@@ -71,6 +78,7 @@ void OutlierJudge::Add(std::int64_t stamp, const Pose& X_PC) {
   if (centre >= kSide)
     for (int channel : {0, 1}) samples_[centre].off[channel] = Off(centre, channel);
   if (next_ + kLongest + kSide + kAround < static_cast<int>(samples_.size())) {
+    JudgeBegin();
     const int before = next_;
     Judge(next_);
     for (int i = next_ - before; i > 0 && next_ > kAround + 2 * kSide; --i) Forget();
@@ -90,7 +98,86 @@ void OutlierJudge::Forget() {
 }
 
 void OutlierJudge::JudgeRest() {
+  JudgeBegin();
   while (next_ + kSide < static_cast<int>(samples_.size())) Judge(next_);
+}
+
+void OutlierJudge::JudgeBegin() {
+  if (!begins_ || static_cast<int>(samples_.size()) < kLongestEnd + kSide + kBehind) return;
+  begins_ = false;
+  for (const int channel : {0, 1}) {
+    Event event;
+    for (int n = kLongestEnd; n > 0 && event.kind == Event::Kind::kNone; --n)
+      event = JudgeFirst(n, channel, false);
+    if (event.kind == Event::Kind::kNone) continue;
+    Note(event, 0, channel);
+    // The step behind them is told by that.
+    next_ = std::max(next_, event.length + 1);
+    for (int i = 0; i < event.length + kSide; ++i) samples_[i].off = {0, 0};
+  }
+}
+
+void OutlierJudge::Finish() {
+  JudgeRest();
+  const int size = static_cast<int>(samples_.size());
+  if (size < kLongestEnd + kSide + kBehind) return;
+  for (const int channel : {0, 1}) {
+    Event event;
+    for (int n = kLongestEnd; n > 0 && event.kind == Event::Kind::kNone; --n)
+      event = JudgeFirst(n, channel, true);
+    if (event.kind != Event::Kind::kNone) Note(event, size - event.length, channel);
+  }
+}
+
+// Whether the first samples are off the parabola through the three next to them, by far more than
+// the following ones are off theirs. `from_behind`: the last ones, and those before.
+OutlierJudge::Event OutlierJudge::JudgeFirst(int length, int channel, bool from_behind) const {
+  constexpr int kMost = kLongestEnd + kSide + kBehind;
+  const int count = length + kSide + kBehind;
+  const auto sample = [&](int i) -> const Sample& {
+    return samples_[from_behind ? samples_.size() - 1 - static_cast<std::size_t>(i)
+                                : static_cast<std::size_t>(i)];
+  };
+  const Sample& base = sample(length);
+  Event event;
+  std::array<Eigen::Vector3d, kMost> p;
+  std::array<double, kMost> t = {};
+  for (int i = 0; i < count; ++i) {
+    t[i] = static_cast<double>(sample(i).stamp - base.stamp) * 1e-9;
+    Eigen::Quaterniond turn = base.X.q.conjugate() * sample(i).X.q;
+    if (turn.w() < 0) turn.coeffs() = -turn.coeffs();
+    p[i] = channel == 0 ? Eigen::Vector3d(sample(i).X.p - base.X.p) : RotationLog(turn);
+    if (i < length || channel == 0) continue;
+    if (p[i].norm() > kLargestTurn) return event;
+  }
+  const double h = std::abs(t[length] - t[length - 1]);
+  double longest = 0;
+  for (int i = 1; i < count; ++i) longest = std::max(longest, std::abs(t[i] - t[i - 1]));
+  if (longest > std::min(max_gap_, kHole * h) || h > kHole * std::abs(t[count - 1]) / count)
+    return event;
+  const auto off = [&](int i, int from) {
+    return Eigen::Vector3d(p[i] - Parabola(&p[from], &t[from], t[i]).p);
+  };
+  const Eigen::Vector3d apart = off(length - 1, length);
+  const double size = apart.norm(), acceleration = size / (h * h);
+  double usual = 0;
+  for (int i = length; i < length + kBehind; ++i) usual = std::max(usual, off(i, i + 1).norm());
+  if (!IsFarBeyond(size, usual, channel) || acceleration < limits_[channel].acceleration)
+    return event;
+  for (int i = 0; i + 1 < length; ++i)
+    if (off(i, length).norm() < size / 2) return event;
+  const Eigen::Vector3d v = Parabola(&p[length], &t[length], t[length]).v;
+  const Eigen::Vector3d step = p[length - 1] / (t[length - 1] * v.norm());  // in that velocity
+  const double along = step.dot(v.normalized());
+  if (v.norm() < kStartsAtOnce[channel] && along > -kOffPath && along < 1 &&
+      (step - along * v.normalized()).norm() * h * v.norm() < kOffPath * size)
+    return event;
+  event.kind = from_behind ? Event::Kind::kEnd : Event::Kind::kBegin;
+  event.length = length;
+  event.size = size;
+  event.acceleration = acceleration;
+  event.usual = usual;
+  return event;
 }
 
 bool OutlierJudge::Look(int from, int count, int channel, Places* places, double* times) const {
@@ -274,6 +361,8 @@ void OutlierJudge::Note(const Event& event, int at, int channel) {
   Found& found = found_[channel];
   Tally& tally = event.kind == Event::Kind::kOutlier ? found.outliers
                  : event.kind == Event::Kind::kStep  ? found.steps
+                 : event.kind == Event::Kind::kBegin ? found.begins
+                 : event.kind == Event::Kind::kEnd   ? found.ends
                                                      : found.stamps;
   const std::int64_t stamp = samples_[at].stamp;
   if (tally.count++ == 0) tally.first = stamp;
@@ -284,6 +373,7 @@ void OutlierJudge::Note(const Event& event, int at, int channel) {
   tally.acceleration = event.acceleration;
   tally.lateness = event.lateness;
   tally.usual = event.usual;
+  tally.length = event.length;
 }
 
 }  // namespace cosserat_cable

@@ -32,12 +32,15 @@ class OutlierJudge {
     double lateness = 0;                ///< of the same's stamp [s]
     double usual = 0;                   ///< what samples around it are off
     double sum = 0;                     ///< of all sizes
+    int length = 0;                     ///< of the worst, in samples
   };
   /// Of translations, or of rotations.
   struct Found {
     Tally outliers;  ///< excursions of one to four samples
     Tally steps;
     Tally stamps;  ///< samples that lie on the path of the others, at another time
+    /// The first samples, one to three, or the last ones, that do not belong to the others.
+    Tally begins, ends;
 
     /// Whether the steps are many and of one size, as a coarse encoder's are.
     bool HasQuantum() const;
@@ -51,6 +54,8 @@ class OutlierJudge {
   void Restart();
   /// No more samples come for now: judges the last ones by what there is.
   void JudgeRest();
+  /// No more samples come: the last ones are judged by those before.
+  void Finish();
 
   const Found& translation() const { return found_[0]; }
   const Found& rotation() const { return found_[1]; }
@@ -66,7 +71,7 @@ class OutlierJudge {
     std::array<double, 2> off = {0, 0};  // what its neighbours do not explain
   };
   struct Event {
-    enum class Kind { kNone, kOutlier, kStep, kStamp } kind = Kind::kNone;
+    enum class Kind { kNone, kOutlier, kStep, kStamp, kBegin, kEnd } kind = Kind::kNone;
     int length = 0;  // samples
     double size = 0, acceleration = 0, lateness = 0, usual = 0;
   };
@@ -79,6 +84,8 @@ class OutlierJudge {
   Event JudgeExcursion(int first, int length, int channel) const;
   Event JudgeStep(int first, int channel) const;
   Event JudgeStamp(int at, int channel) const;
+  Event JudgeFirst(int length, int channel, bool from_behind) const;
+  void JudgeBegin();
   bool IsFarBeyond(double size, double usual, int channel) const;
   void Judge(int at);
   void Forget();
@@ -87,7 +94,8 @@ class OutlierJudge {
   std::array<OutlierLimits, 2> limits_;
   double max_gap_;
   std::deque<Sample> samples_;
-  int next_ = kSide;  // sample to be judged
+  int next_ = kSide;    // sample to be judged
+  bool begins_ = true;  // the first samples are still to be judged
   std::array<double, 2> sum_ = {0, 0};
   std::array<std::uint64_t, 2> count_ = {0, 0};  // of those that are off at all
   std::array<Found, 2> found_;

@@ -42,6 +42,17 @@ RecordingJudge::Edge::Edge(std::string the_parent, std::string the_child, EdgeRo
       motion(role == EdgeRole::kAboveVehicle ? EdgeRole::kBody : role, max_gap) {
   if (role == EdgeRole::kAboveVehicle) correction.emplace(role, max_gap);
   if (Moves(the_joint)) joint.emplace(*the_joint, max_gap);
+  // A joint that the recording has elsewhere may be a wheel's.
+  const bool may_spin = role == EdgeRole::kJoint && (!the_joint || Moves(the_joint));
+  if (!may_spin) attitude.emplace(max_gap);
+}
+
+bool RecordingJudge::Edge::IsCorrected() const {
+  if (!correction) return false;
+  // By REP-105 it is the localisation that moves odom in map.
+  const bool by_name =
+      parent.find("map") != std::string::npos && child.find("odom") != std::string::npos;
+  return correction->IsCorrected() || (by_name && correction->IsRough());
 }
 
 RecordingJudge::RecordingJudge(const VehicleModel& vehicle, double max_gap)
@@ -73,6 +84,7 @@ int RecordingJudge::Publisher(const std::string& name) {
 void RecordingJudge::AddMotion(Edge* edge, std::int64_t stamp, const Pose& X_PC) {
   edge->motion.Add(stamp, X_PC);
   if (edge->correction) edge->correction->Add(stamp, X_PC);
+  if (edge->attitude) edge->attitude->Add(stamp, X_PC.q);
 }
 
 void RecordingJudge::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
@@ -108,12 +120,22 @@ void RecordingJudge::AddFixed(const std::string& parent, const std::string& chil
     ++known->count;
 }
 
+void RecordingJudge::Restart(Edge* edge) {
+  edge->motion.Restart();
+  if (edge->correction) edge->correction->Restart();
+  if (edge->joint) edge->joint->Restart();
+  if (edge->attitude) edge->attitude->Restart();
+  edge->publishers.Restart();
+}
+
 void RecordingJudge::Restart() {
+  for (auto& [child, edge] : edges_) Restart(&edge);
+}
+
+void RecordingJudge::Finish() {
   for (auto& [child, edge] : edges_) {
-    edge.motion.Restart();
-    if (edge.correction) edge.correction->Restart();
-    if (edge.joint) edge.joint->Restart();
-    edge.publishers.Restart();
+    edge.motion.Finish();
+    if (edge.correction) edge.correction->Finish();
   }
 }
 
@@ -129,7 +151,7 @@ std::size_t RecordingJudge::FirstCorrected(const Way& way) const {
   for (; i + 1 < way.size(); ++i) {
     const Edge* edge = Find(way[i]);
     if (!edge) continue;
-    if (moves_below && edge->correction && edge->correction->MovesByJumps()) break;
+    if (moves_below && edge->IsCorrected()) break;
     moves_below = moves_below || edge->motion.moves();
   }
   return i;
@@ -183,7 +205,15 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
     const auto at = std::find(way.begin(), way.end(), child);
     const bool above =
         at != way.end() && at - way.begin() >= static_cast<std::ptrdiff_t>(corrected);
-    const bool is_corrected = above && edge.correction && edge.correction->MovesByJumps();
+    const bool is_corrected = above && edge.IsCorrected();
+    // An angle in the wrong unit is why it moves as it does.
+    Findings attitude;
+    if (edge.attitude) attitude = edge.attitude->Report(subject, edge.topic);
+    if (!attitude.empty()) {
+      std::move(attitude.begin(), attitude.end(), std::back_inserter(findings));
+      ReportConflict(edge, &findings);
+      continue;
+    }
     Findings motion = (is_corrected ? *edge.correction : edge.motion).Report(subject, edge.topic);
     if (is_corrected) {
       // Many small ones, none of which stands out.
@@ -196,15 +226,18 @@ Findings RecordingJudge::Report(const Way& way, const std::string& world) const 
                                "--world-frame " +
                                    smooth + " (~world_frame of the node)";
     }
-    // A vehicle that stands still in a frame that is corrected.
-    if (!is_corrected && motion.empty() && edge.correction && edge.correction->MovesByJumps()) {
-      motion = edge.correction->Report(subject, edge.topic);
-      if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
+    // A vehicle that stands still in a frame that is corrected; or these are its own leaps.
+    if (!is_corrected && edge.IsCorrected()) {
+      if (motion.empty()) {
+        motion = edge.correction->Report(subject, edge.topic);
+        if (motion.empty()) motion.push_back(edge.correction->Corrections(subject, edge.topic));
+        for (Finding& finding : motion) finding.remedy.clear();
+      }
       for (Finding& finding : motion)
-        finding.remedy =
-            "does a localisation correct it? then take the frame below as inertial, "
-            "--world-frame " +
-            child + " (~world_frame of the node)";
+        finding.remedy += (finding.remedy.empty() ? "" : "; ") +
+                          ("does a localisation correct it? then take the frame below as inertial, "
+                           "--world-frame " +
+                           child + " (~world_frame of the node)");
     }
     std::move(motion.begin(), motion.end(), std::back_inserter(findings));
     if (edge.joint) {

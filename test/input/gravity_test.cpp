@@ -85,5 +85,31 @@ TEST(Gravity, AnAccelerometerThatContradictsIsSaidWithTheOption) {
   EXPECT_EQ(GravityHint({0, 0, 0}, "odom", {0, 0, 9.81}, "/imu"), "");
 }
 
+TEST(Gravity, AnAccelerometerInAnotherUnitIsCalledSo) {
+  const Vector3d down_z(0, 0, -9.81);
+  const auto hint = [&](double size) {
+    return GravityHint(down_z, "odom", size * Vector3d(0.04, -0.02, 0.999).normalized(), "/imu");
+  };
+  const std::vector<std::pair<double, std::string>> units = {
+      {0.99, "in g?"},      {1.03, "in g?"},     {981, "in cm/s^2"}, {1000, "thousandths of g"},
+      {9790, "in mm/s^2?"}, {32.2, "in ft/s^2?"}};
+  for (const auto& [size, words] : units) {
+    EXPECT_NE(hint(size).find(words), std::string::npos) << size << ": " << hint(size);
+    EXPECT_EQ(hint(size).find("--gravity"), std::string::npos) << hint(size);
+  }
+  // The direction is off as well.
+  EXPECT_NE(GravityHint(down_z, "odom", {0, 0, -1}, "/imu").find("--gravity 0,0,9.81"),
+            std::string::npos);
+  // Neither a unit nor a planet: no such gravity is advised.
+  for (const double size : {2.5, 15.0, 120.0, 2048.0, 16384.0}) {
+    EXPECT_NE(hint(size).find("is it raw, in another unit"), std::string::npos) << hint(size);
+    EXPECT_EQ(hint(size).find("--gravity"), std::string::npos) << hint(size);
+  }
+  EXPECT_NE(GravityHint(down_z, "odom", {0, 0, -16384}, "/imu").find("--gravity 0,0,9.81"),
+            std::string::npos);
+  // Gravity was taken out, and the vehicle gathered speed.
+  EXPECT_EQ(GravityHint(down_z, "odom", {0.98, 0, 0.1}, "/imu"), "");
+}
+
 }  // namespace
 }  // namespace cosserat_cable

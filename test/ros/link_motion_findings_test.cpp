@@ -145,30 +145,66 @@ TEST_F(LinkMotionTest, WhatComesBeforeTheFramesBelowItCountsToo) {
   EXPECT_EQ(ready, kStart + 49 * kPeriod);
 }
 
-// As the old static_transform_publisher does.
-TEST_F(LinkMotionTest, AConstantTransformThatIsStampedAheadIsNoOtherClock) {
-  LinkMotion links(vehicle_, needed_, options_);
-  for (int i = 0; i < 10; ++i) {
-    const std::int64_t now = kStart + i * 100 * kPeriod;
-    links.Ingest(Transform("world", "odom", now + 100 * kPeriod, Shifted(3)), false);
-    Drive(&links, now, 100);
+// As the old static_transform_publisher does: stamped ahead, or by an interval behind.
+TEST_F(LinkMotionTest, AConstantTransformHoldsForAsLongAsItIsSentAnyway) {
+  for (const int ahead : {100, 50, -40}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    for (int i = 0; i < 10; ++i) {
+      const std::int64_t now = kStart + i * 100 * kPeriod;
+      if (ahead > 0 || i > 0)
+        links.Ingest(Transform("world", "odom", now + ahead * kPeriod, Shifted(3)), false);
+      Drive(&links, now, 100);
+    }
+    links.Finish();
+    bool nothing = false;
+    EXPECT_TRUE(links.CoverageFindings("world", &nothing).empty()) << ahead;
+    EXPECT_FALSE(nothing);
+    const std::vector<ConstantEdge> constants = links.Constants("world");
+    ASSERT_EQ(constants.size(), 1u) << ahead;
+    EXPECT_EQ(constants[0].child, "odom");
+    EXPECT_NEAR(constants[0].interval, 1, 1e-9);
+
+    // With that known, the whole recording is followed.
+    LinkMotionOptions options = options_;
+    options.constants = constants;
+    LinkMotion again(vehicle_, needed_, options);
+    for (int i = 0; i < 10; ++i) {
+      const std::int64_t now = kStart + i * 100 * kPeriod;
+      if (i == 9) again.Ingest(Transform("world", "odom", now, Shifted(3)), false);
+      Drive(&again, now, 100);
+    }
+    again.Finish();
+    std::int64_t begin = 0, ready = 0;
+    ASSERT_TRUE(again.Range(&begin, &ready));
+    EXPECT_EQ(again.world(), "world");
+    EXPECT_EQ(begin, kStart);
+    EXPECT_EQ(ready, kStart + 999 * kPeriod);
+    EXPECT_EQ(again.Evaluate("odom", kStart).X.p.x(), 3);
+    EXPECT_EQ(again.LatestPose("world", "odom")->p.x(), 3);
   }
-  links.Finish();
-  bool nothing = false;
-  const Findings findings = links.CoverageFindings("world", &nothing);
-  EXPECT_FALSE(nothing);
-  ASSERT_EQ(findings.size(), 1u);
-  EXPECT_EQ(findings[0].subject, "world -> odom");
-  EXPECT_NE(findings[0].what.find("the run has 8.990 s of 9.990 s"), std::string::npos)
-      << findings[0].what;
-  EXPECT_NE(findings[0].remedy.find("/tf_static"), std::string::npos);
+}
+
+TEST_F(LinkMotionTest, ATransformThatMovesOrEndsEarlyDoesNotHold) {
+  for (const bool moves : {true, false}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    for (int i = 0; i < 10; ++i) {
+      const std::int64_t now = kStart + i * 100 * kPeriod;
+      if (moves ? i > 0 : i < 6)
+        links.Ingest(Transform("world", "odom", now, Shifted(moves ? i : 3)), false);
+      Drive(&links, now, 100);
+    }
+    links.Finish();
+    EXPECT_TRUE(links.Constants("world").empty());
+    bool nothing = false;
+    EXPECT_EQ(links.CoverageFindings("world", &nothing).size(), 1u);
+  }
 }
 
 TEST_F(LinkMotionTest, AnEdgeThatEndsEarlyLimitsTheRun) {
   LinkMotion links(vehicle_, needed_, options_);
   for (int i = 0; i < 4; ++i) {
     const std::int64_t stamp = kStart + i * 100 * kPeriod;
-    links.Ingest(Transform("map", "odom", stamp, Shifted(3)), false);
+    if (i < 3) links.Ingest(Transform("map", "odom", stamp, Shifted(3)), false);
     Drive(&links, stamp, i < 3 ? 100 : 96);
   }
   links.Finish();
@@ -176,9 +212,130 @@ TEST_F(LinkMotionTest, AnEdgeThatEndsEarlyLimitsTheRun) {
   const Findings findings = links.CoverageFindings("map", &nothing);
   EXPECT_FALSE(nothing);
   ASSERT_EQ(findings.size(), 1u);
-  EXPECT_NEAR(findings[0].size, 0.95, 1e-9);
-  EXPECT_NE(findings[0].what.find("the run has 3.000 s of 3.950 s"), std::string::npos)
+  EXPECT_NEAR(findings[0].size, 1.95, 1e-9);
+  EXPECT_NE(findings[0].what.find("the run has 2.000 s of 3.950 s"), std::string::npos)
       << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("/tf_static"), std::string::npos);
+}
+
+TEST_F(LinkMotionTest, AClockThatWasSetBackIsToldInsteadOfJumps) {
+  for (const double seconds : {0.05, 0.1, 0.3, 0.45}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    const auto back = static_cast<std::int64_t>(seconds * 1e9);
+    for (int i = 0; i < 600; ++i) {
+      const std::int64_t now = kStart + i * kPeriod, stamp = now - (i > 250 ? back : 0);
+      const double t = 0.01 * i;
+      links.Ingest(Transform("odom", "base", stamp, BodyPose(t)), false, "", now);
+      links.Ingest(Joints(now, Travel(t)), "", now);
+    }
+    links.Finish();
+    const Findings findings = links.MotionFindings("odom");
+    const Finding* set_back = FindKind(findings, "clock_set_back");
+    ASSERT_NE(set_back, nullptr) << seconds;
+    EXPECT_EQ(set_back->subject, "odom -> base");
+    EXPECT_EQ(set_back->topic, "/tf");
+    EXPECT_EQ(set_back->count, 1u);
+    EXPECT_EQ(set_back->worst, kStart + 250 * kPeriod);
+    EXPECT_NEAR(set_back->size, seconds, 1e-3);
+    EXPECT_NE(set_back->remedy.find("--use-record-times"), std::string::npos);
+    EXPECT_EQ(FindKind(findings, "jump"), nullptr) << seconds;
+    EXPECT_EQ(FindKind(findings, "acceleration"), nullptr) << seconds;
+    EXPECT_EQ(FindKind(findings, "clock_drifts"), nullptr) << seconds;
+    EXPECT_TRUE(links.warnings().counts().empty()) << seconds;
+  }
+}
+
+TEST_F(LinkMotionTest, AClockThatWasSetForwardByLessThanAGapIsTold) {
+  for (const bool set : {true, false}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    for (int i = 0; i < 600; ++i) {
+      // Otherwise these messages are lost, and the next one comes early.
+      if (!set && i > 250 && i < 270) continue;
+      const std::int64_t now = kStart + i * kPeriod;
+      const std::int64_t recorded = now + 5'000'000 + (i * 7 % 11) * 1'000'000;
+      links.Ingest(
+          Transform("odom", "base", now + (set && i > 250 ? 200'000'000 : 0), BodyPose(0.01 * i)),
+          false, "", recorded);
+      links.Ingest(Joints(now, Travel(0.01 * i)), "", recorded);
+    }
+    links.Finish();
+    const Findings findings = links.MotionFindings("odom");
+    const Finding* jump = FindKind(findings, "clock_jump");
+    ASSERT_EQ(jump != nullptr, set);
+    if (!jump) continue;
+    EXPECT_EQ(jump->subject, "odom -> base");
+    EXPECT_EQ(jump->worst, kStart + 250 * kPeriod);
+    EXPECT_NEAR(jump->size, 0.2, 0.02);
+    EXPECT_EQ(FindKind(findings, "clock_drifts"), nullptr);
+  }
+}
+
+TEST_F(LinkMotionTest, MessagesThatComeTooLateInABatchAreNoClockThatWasSetBack) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 400; ++i) {
+    // The samples 200 to 209 come behind the samples 210 to 219.
+    const int k = i >= 200 && i < 210 ? i + 10 : i >= 210 && i < 220 ? i - 10 : i;
+    links.Ingest(Transform("odom", "base", kStart + k * kPeriod, BodyPose(0.01 * k)), false);
+    links.Ingest(Joints(kStart + i * kPeriod, Travel(0.01 * i)));
+  }
+  // A second publisher that lags behind.
+  LinkMotion two(vehicle_, needed_, options_);
+  for (int i = 0; i < 400; ++i) {
+    two.Ingest(Transform("odom", "base", kStart + i * kPeriod, BodyPose(0.01 * i)), false, "/a");
+    if (i >= 30)
+      two.Ingest(Transform("odom", "base", kStart + (i - 30) * kPeriod, BodyPose(0.01 * (i - 30))),
+                 false, "/b");
+    two.Ingest(Joints(kStart + i * kPeriod, Travel(0.01 * i)));
+  }
+  for (LinkMotion* each : {&links, &two}) {
+    each->Finish();
+    EXPECT_EQ(FindKind(each->MotionFindings("odom"), "clock_set_back"), nullptr);
+    EXPECT_GT(each->warnings().counts().at("sample older than the one before it"), 5u);
+  }
+}
+
+TEST_F(LinkMotionTest, TransformsThatAreAllUnusableAreMissed) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 20; ++i) {
+    tf2_msgs::TFMessage message = Transform("odom", "base", kStart + i * kPeriod, Pose());
+    message.transforms[0].transform.rotation.w = i % 2 == 0 ? 0 : std::nan("");
+    links.Ingest(message, false);
+    links.Ingest(Joints(kStart + i * kPeriod, Travel(0.01 * i)));
+  }
+  EXPECT_TRUE(Says(links.Missing(),
+                   "no transform of /tf can be used, of 20 (the first: 'odom' -> "
+                   "'base', its quaternion has the length 0)"));
+  // One that can is enough for a node to begin.
+  links.Ingest(Transform("odom", "base", kStart + 20 * kPeriod, Pose()), false);
+  EXPECT_TRUE(links.Missing().empty());
+}
+
+TEST_F(LinkMotionTest, BurstsAreToldOfTheirTopic) {
+  LinkMotion links(vehicle_, needed_, options_);
+  for (int i = 0; i < 400; ++i) {
+    const std::int64_t sent = kStart + (i / 20) * 20 * kPeriod + (i % 20) * 1000;
+    links.Ingest(Transform("odom", "base", sent, BodyPose(0.01 * i)), false, "", sent);
+    links.Ingest(Joints(kStart + i * kPeriod, Travel(0.01 * i)));
+  }
+  links.Finish();
+  const Findings findings = links.MotionFindings("odom");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "bursts");
+  EXPECT_EQ(findings[0].subject, "odom -> base");
+  EXPECT_EQ(findings[0].topic, "/tf");
+}
+
+TEST_F(LinkMotionTest, AnotherPoseAtTheSameStampIsToldAsStampOfSending) {
+  for (const bool moves : {true, false}) {
+    LinkMotion links(vehicle_, needed_, options_);
+    for (int i = 0; i < 400; ++i)
+      links.Ingest(Transform("odom", "base", kStart + (i / 10) * 10 * kPeriod,
+                             BodyPose(moves ? 0.01 * i : 0)),
+                   false);
+    links.Finish();
+    EXPECT_EQ(links.warnings().counts().at("sample repeated with the same stamp"), 360u);
+    EXPECT_EQ(Says(links.warnings().Sentences(), "are poses stamped when they are sent"), moves);
+  }
 }
 
 TEST_F(LinkMotionTest, ATopicOfAnotherClockIsTold) {

@@ -108,6 +108,7 @@ TEST_F(LinkMotionTest, OldAndRepeatedSamplesAreCountedAndIgnored) {
   Drive(&links, kStart, 10);
   links.Ingest(Joints(kStart + 9 * kPeriod, 0.5));
   links.Ingest(Joints(kStart + 8 * kPeriod, 0.5));
+  links.Finish();
   EXPECT_EQ(links.edges().at("strut").samples, 10u);
   // The arm follows the strut, so each joint state is two samples.
   EXPECT_EQ(links.warnings().counts().at("sample repeated with the same stamp"), 2u);

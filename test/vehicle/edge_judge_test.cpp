@@ -117,6 +117,34 @@ TEST(EdgeJudge, StampsOfPublishingAreLate) {
   EXPECT_EQ(findings[0].topic, "/tf");
 }
 
+TEST(EdgeJudge, BurstsAreCalledSo) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double between : {0.1, 0.2, 0.5}) {
+      for (const double apart : {1e-6, 1e-4, 1e-3}) {
+        EdgeJudge judge(role, kMaxGap);
+        for (int i = 0; i < 500; ++i) {
+          const double measured = i * between / 10, sent = (i / 10) * between + (i % 10) * apart;
+          judge.Add(Stamp(kStart + sent), At(3 * measured));
+        }
+        judge.Finish();
+        const Findings findings = judge.Report("odom -> base_link", "/tf");
+        ASSERT_EQ(Kinds(findings), "bursts") << between << " " << apart;
+        EXPECT_NEAR(findings[0].size, between - 9 * apart, 1e-3);
+        EXPECT_NE(findings[0].what.find("some 10 samples"), std::string::npos) << findings[0].what;
+      }
+    }
+  }
+}
+
+TEST(EdgeJudge, TwoPublishersThatTakeTurnsAreNoBursts) {
+  EdgeJudge judge(EdgeRole::kBody, kMaxGap);
+  for (int i = 0; i < 1000; ++i) {
+    judge.Add(Stamp(kStart + 0.01 * i), At(0.03 * i));
+    judge.Add(Stamp(kStart + 0.01 * i + 1e-4), At(0.03 * i));
+  }
+  EXPECT_EQ(Kinds(judge.Report("", "")), "");
+}
+
 TEST(EdgeJudge, LateStampsOfATurnAreToldToo) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> late(0, 0.003);
@@ -229,9 +257,192 @@ TEST(EdgeJudge, StepsOfACoarseEncoderAreNoJumpsAndNoOutliers) {
     };
     for (const double rate : {50.0, 100.0, 500.0}) {
       const std::string kinds = Kinds(Found(EdgeRole::kJoint, {rate, 30, coarse}));
-      EXPECT_TRUE(kinds.empty() || kinds == "noise") << kinds << " " << step << " " << rate;
+      EXPECT_TRUE(kinds.empty() || kinds == "quantisation") << kinds << " " << step << " " << rate;
     }
   }
+}
+
+TEST(EdgeJudge, ACoarseSensorIsCalledQuantised) {
+  std::mt19937 random(9);
+  std::normal_distribution<double> noise(0, 1);
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 200.0, 500.0}) {
+      for (const double millimetres : {1.0, 2.0, 5.0}) {
+        // 1 mm and 0.1 deg, and coarser: slowly moving, around one step, and at rest but for noise.
+        const double step = 1e-3 * millimetres, turn = 0.1 * millimetres * M_PI / 180;
+        const auto on_grid = [&](double x) {
+          return At(step * std::round(x), turn * std::round(x));
+        };
+        const std::vector<std::function<Pose(double)>> motions = {
+            [&](double t) { return on_grid(30 * std::sin(2 * M_PI * 0.2 * t)); },
+            [&](double t) { return on_grid(30 * std::sin(2 * M_PI * 2 * t)); },
+            [&](double t) { return on_grid(0.3 + 0.3 * std::sin(2 * M_PI * 0.2 * t)); },
+            [&](double) { return on_grid(0.4 + 0.1 * noise(random)); }};
+        for (std::size_t i = 0; i < motions.size(); ++i) {
+          const std::string kinds = Kinds(Found(role, {rate, 20, motions[i]}));
+          EXPECT_TRUE(kinds.empty() || kinds == "quantisation")
+              << kinds << ", motion " << i << " at " << rate << " Hz in " << millimetres << " mm";
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeJudge, QuantisationIsToldWithItsStepAndWhatTakesItOut) {
+  const Findings findings =
+      Found(EdgeRole::kBody,
+            {100, 20, [](double t) { return At(2e-3 * std::round(15 * std::sin(12 * t))); }});
+  ASSERT_EQ(Kinds(findings), "quantisation");
+  EXPECT_NEAR(findings[0].size, 2e-3, 1e-9);
+  EXPECT_NE(findings[0].what.find("in steps of 2 mm"), std::string::npos) << findings[0].what;
+  EXPECT_NE(findings[0].remedy.find("--smooth "), std::string::npos) << findings[0].remedy;
+}
+
+TEST(EdgeJudge, AnglesThatAreQuantisedOneByOneAreSeen) {
+  // Roll, pitch and yaw in steps of 0.1 deg, as an attitude sensor has them.
+  const auto rounded = [](double angle) {
+    constexpr double kStep = 0.1 * M_PI / 180;
+    return kStep * std::round(angle / kStep);
+  };
+  const auto attitude = [&](double t) {
+    Pose pose = At(3 * t);
+    pose.q = Eigen::AngleAxisd(rounded(0.2 * t), Eigen::Vector3d::UnitZ()) *
+             Eigen::AngleAxisd(rounded(0.02 * std::sin(9 * t)), Eigen::Vector3d::UnitY()) *
+             Eigen::AngleAxisd(rounded(0.03 * std::sin(8 * t)), Eigen::Vector3d::UnitX());
+    return pose;
+  };
+  const Findings findings = Found(EdgeRole::kBody, {100, 10, attitude});
+  ASSERT_EQ(Kinds(findings), "quantisation");
+  EXPECT_NE(findings[0].what.find("in steps of 0.1 deg"), std::string::npos) << findings[0].what;
+}
+
+TEST(EdgeJudge, AJumpOfACoarseSensorIsStillAJump) {
+  const Findings findings =
+      Found(EdgeRole::kBody, {50, 20, [](double t) {
+                                const double x = 0.03 * std::sin(1.3 * t) + (t > 7.999 ? 0.1 : 0);
+                                return At(1e-3 * std::round(1e3 * x));
+                              }});
+  ASSERT_FALSE(findings.empty());
+  EXPECT_EQ(findings[0].kind, "jump");
+  EXPECT_EQ(findings[0].count, 1u);
+  EXPECT_EQ(findings[0].worst, Stamp(kStart + 8));
+  // Off by one step at most.
+  EXPECT_NEAR(findings[0].size, 0.1, 1.1e-3);
+}
+
+TEST(EdgeJudge, AUniformMotionIsNotQuantised) {
+  // It stands still, goes off, and jumps by a step and a half of what looks like its grid.
+  const auto goes = [](double t) { return At((t < 3 ? 0 : t - 3) + (t > 6.999 ? 0.015 : 0)); };
+  EXPECT_EQ(Kinds(Found(EdgeRole::kBody, {100, 10, goes})), "jump");
+}
+
+// ---- The first samples and the last ones ------------------------------------------------------
+
+// 10 s of driving over a rough road; `wrong`: of the first samples, or of the last ones.
+template <class Wrong>
+Findings BadEnd(EdgeRole role, double rate, int samples, bool at_the_end, const Wrong& wrong) {
+  EdgeJudge judge(role, kMaxGap);
+  const int count = static_cast<int>(10 * rate);
+  for (int i = 0; i < count; ++i) {
+    const double t = i / rate;
+    const Pose right = At(5 + 3 * t + Rough(t), 0.3);
+    const bool is_wrong = at_the_end ? i >= count - samples : i < samples;
+    judge.Add(Stamp(kStart + t), is_wrong ? wrong(right) : right);
+  }
+  judge.Finish();
+  return judge.Report("odom -> base_link", "/tf");
+}
+
+TEST(EdgeJudge, TheFirstAndLastSamplesAreJudgedToo) {
+  const auto zeros = [](const Pose&) { return Pose(); };
+  const auto off = [](Pose pose) {
+    pose.p.y() += 0.03;
+    return pose;
+  };
+  const auto turned = [](Pose pose) {
+    pose.q = Eigen::Quaterniond::Identity();
+    return pose;
+  };
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 200.0, 500.0}) {
+      for (const int samples : {1, 2, 3}) {
+        for (const bool at_the_end : {false, true}) {
+          const double t = at_the_end ? 10 - samples / rate : 0;
+          for (const auto& findings : {BadEnd(role, rate, samples, at_the_end, zeros),
+                                       BadEnd(role, rate, samples, at_the_end, off),
+                                       BadEnd(role, rate, samples, at_the_end, turned)}) {
+            ASSERT_EQ(Kinds(findings), "outlier") << rate << " " << samples << " " << at_the_end;
+            EXPECT_EQ(findings[0].worst, Stamp(kStart + t));
+            EXPECT_NE(findings[0].what.find(at_the_end ? "ends with" : "begins with"),
+                      std::string::npos);
+            EXPECT_NE(findings[0].remedy.find(at_the_end ? "--duration" : "--start"),
+                      std::string::npos);
+          }
+          EXPECT_NEAR(BadEnd(role, rate, samples, at_the_end, off)[0].size, 0.03, 0.005);
+        }
+      }
+    }
+  }
+}
+
+TEST(EdgeJudge, AMotionMayBeginAndEndAtOnce) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {50.0, 100.0, 500.0}) {
+      for (const double part : {0.0, 0.3, 0.6, 0.9}) {
+        // It is set in motion within the first interval, and stopped within the last one.
+        EdgeJudge judge(role, kMaxGap);
+        const double begin = part / rate, end = 10 - part / rate;
+        for (int i = 0; i <= static_cast<int>(10 * rate); ++i) {
+          const double t = i / rate;
+          judge.Add(Stamp(kStart + t), At(std::clamp(t, begin, end)));
+        }
+        judge.Finish();
+        EXPECT_EQ(Kinds(judge.Report("", "")), "") << rate << " " << part;
+      }
+    }
+  }
+}
+
+// ---- Vibrations -------------------------------------------------------------------------------
+
+TEST(EdgeJudge, FastVibrationsAreNoNoiseAndNoJumps) {
+  for (const EdgeRole role : {EdgeRole::kBody, EdgeRole::kJoint}) {
+    for (const double rate : {100.0, 125.0, 150.0, 200.0, 500.0}) {
+      for (const double f : {20.0, 30.0, 35.0, 40.0}) {
+        const auto sine = [&](double t) { return At(3 * t + 3e-3 * std::sin(2 * M_PI * f * t)); };
+        const auto turns = [&](double t) { return At(0, 6e-3 * std::sin(2 * M_PI * f * t)); };
+        EXPECT_EQ(Kinds(Found(role, {rate, 10, sine})), "") << f << " at " << rate;
+        EXPECT_EQ(Kinds(Found(role, {rate, 10, turns})), "") << f << " at " << rate;
+      }
+      // From 10 to 40 Hz within 20 s, and two at once.
+      const auto chirp = [](double t) {
+        return At(2e-3 * std::sin(2 * M_PI * (10 * t + 0.75 * t * t)));
+      };
+      const auto both = [](double t) {
+        return At(1e-3 * std::sin(2 * M_PI * 31 * t) + 1e-3 * std::sin(2 * M_PI * 37 * t));
+      };
+      EXPECT_EQ(Kinds(Found(role, {rate, 20, chirp})), "") << rate;
+      EXPECT_EQ(Kinds(Found(role, {rate, 10, both})), "") << rate;
+    }
+  }
+}
+
+TEST(EdgeJudge, SmoothingThatIsAdvisedKeepsAVibration) {
+  // 35 Hz for the first 5 s, then noise.
+  std::mt19937 random(10);
+  std::normal_distribution<double> noise(0, 1e-3);
+  const auto both = [&](double t) {
+    return At(t < 5 ? 3e-3 * std::sin(2 * M_PI * 35 * t) : noise(random));
+  };
+  const Findings slow = Found(EdgeRole::kBody, {100, 10, both});
+  ASSERT_EQ(Kinds(slow), "noise");
+  EXPECT_NE(slow[0].remedy.find("vibrates at 35 Hz, which --smooth HZ would take out too"),
+            std::string::npos)
+      << slow[0].remedy;
+  const Findings fast = Found(EdgeRole::kBody, {500, 10, both});
+  ASSERT_EQ(Kinds(fast), "noise");
+  EXPECT_NE(fast[0].remedy.find("--smooth 5"), std::string::npos) << fast[0].remedy;
+  EXPECT_NE(fast[0].remedy.find("keeps that"), std::string::npos) << fast[0].remedy;
 }
 
 TEST(EdgeJudge, ExcursionsOfAnyLengthAreTold) {
@@ -305,11 +516,11 @@ TEST(EdgeJudge, TwoSamplesNearlyAtOneTimeAreNoJump) {
 
 // ---- Corrections ------------------------------------------------------------------------------
 
-TEST(EdgeJudge, ACorrectionMovesByJumpsAtAnyRate) {
+TEST(EdgeJudge, ACorrectionIsCorrectedAtAnyRate) {
   const auto corrected = [](double t) { return At(7 + (t > 4.95 ? 0.1 : 0)); };
   for (const double rate : {1.0, 10.0, 50.0}) {
     const EdgeJudge judge = Judged(EdgeRole::kAboveVehicle, {rate, 10, corrected});
-    EXPECT_TRUE(judge.MovesByJumps()) << rate;
+    EXPECT_TRUE(judge.IsCorrected()) << rate;
     EXPECT_EQ(Kinds(judge.Report("", "")), "jump") << rate;
   }
 }
@@ -317,14 +528,14 @@ TEST(EdgeJudge, ACorrectionMovesByJumpsAtAnyRate) {
 TEST(EdgeJudge, ACorrectionOfTheHeadingCountsToo) {
   EXPECT_TRUE(Judged(EdgeRole::kAboveVehicle,
                      {10, 10, [](double t) { return At(0, t > 4.95 ? 0.005 : 0); }})
-                  .MovesByJumps());
+                  .IsCorrected());
 }
 
 TEST(EdgeJudge, APlatformDoesNotMoveByJumps) {
   const auto ship = [](double t) { return At(5 * t + 0.5 * std::sin(t), 0.1 * std::sin(0.8 * t)); };
-  EXPECT_FALSE(Judged(EdgeRole::kAboveVehicle, {10, 20, ship}).MovesByJumps());
+  EXPECT_FALSE(Judged(EdgeRole::kAboveVehicle, {10, 20, ship}).IsCorrected());
   EXPECT_FALSE(
-      Judged(EdgeRole::kAboveVehicle, {10, 20, [](double) { return At(3); }}).MovesByJumps());
+      Judged(EdgeRole::kAboveVehicle, {10, 20, [](double) { return At(3); }}).IsCorrected());
 }
 
 }  // namespace

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <vector>
 
 namespace cosserat_cable {
 namespace {
@@ -89,6 +92,78 @@ TEST_F(RecordingJudgeTest, ManySmallCorrectionsAreToldToo) {
   EXPECT_NEAR(findings[0].size, 0.004, 1e-6);
 }
 
+TEST_F(RecordingJudgeTest, CorrectionsThatAreFilteredAreToldToo) {
+  // 50 mm within 0.1 to 0.8 s, at a constant speed, or set in motion and stopped gently.
+  for (const double seconds : {0.1, 0.2, 0.5, 0.8}) {
+    for (const bool gently : {false, true}) {
+      RecordingJudge judge(vehicle_, kMaxGap);
+      for (int i = 0; i <= 500; ++i) {
+        const double u = std::clamp((0.02 * i - 5) / seconds, 0.0, 1.0);
+        const double part = gently ? u * u * (3 - 2 * u) : u;
+        judge.AddMotion(judge.At("odom", "base_link"), kStart + i * kPeriod, At(Rolls(i)));
+        judge.AddMotion(judge.At("map", "odom"), kStart + i * kPeriod, At(7 + 0.05 * part));
+      }
+      const RecordingJudge::Way way = {"base_link", "odom", "map"};
+      EXPECT_EQ(judge.SmoothFrame(way), "odom") << seconds;
+      const Findings findings = judge.Report(way, "odom");
+      ASSERT_EQ(findings.size(), 1u) << seconds;
+      EXPECT_EQ(findings[0].subject, "map -> odom");
+      EXPECT_NEAR(static_cast<double>(findings[0].worst - kStart) * 1e-9, 5, 0.1);
+      EXPECT_NEAR(findings[0].size, 0.05, 0.005);
+      EXPECT_NE(judge.Report(way, "map")[0].remedy.find("--world-frame odom"), std::string::npos);
+    }
+  }
+}
+
+TEST_F(RecordingJudgeTest, NoiseOfALocalisationIsToldAsSuch) {
+  // 20 times a second, white, or filtered so that a platform might move like that: the names of the
+  // frames say that it does not.
+  for (const double filter : {1.0, 0.3}) {
+    for (const bool stands : {false, true}) {
+      std::mt19937 random(11);
+      std::normal_distribution<double> noise(0, 5e-3);
+      RecordingJudge judge(vehicle_, kMaxGap);
+      double x = 0, y = 0;
+      for (int i = 0; i <= 500; ++i) {
+        judge.AddMotion(judge.At("odom", "base_link"), kStart + i * kPeriod,
+                        At(stands ? 0 : Rolls(i)));
+        if (i % 5 < 2) continue;
+        x += filter * (noise(random) - x);
+        y += filter * (x - y);
+        judge.AddMotion(judge.At("map", "odom"), kStart + i * kPeriod, At(7 + y));
+      }
+      const RecordingJudge::Way way = {"base_link", "odom", "map"};
+      const Findings findings = judge.Report(way, judge.SmoothFrame(way));
+      ASSERT_FALSE(findings.empty()) << filter << stands;
+      EXPECT_EQ(findings[0].subject, "map -> odom");
+      EXPECT_NE(findings[0].remedy.find("--world-frame"), std::string::npos);
+      EXPECT_EQ(judge.SmoothFrame(way), stands ? "map" : "odom") << filter;
+    }
+  }
+}
+
+TEST_F(RecordingJudgeTest, PlatformsAreNotCorrected) {
+  const std::vector<std::function<double(double)>> platforms = {
+      [](double t) { return 0.5 * std::sin(t); },                  // a ship
+      [](double t) { return 2e-3 * std::sin(2 * M_PI * 8 * t); },  // a train
+      [](double t) { return 0.01 * std::sin(2 * M_PI * 3 * t); },  // a test rig
+      [](double t) { return 1e-3 * t; },                           // drift
+      [](double t) {                                               // a lift
+        const double u = std::clamp((t - 3) / 4, 0.0, 1.0);
+        return u * u * (3 - 2 * u);
+      }};
+  for (std::size_t k = 0; k < platforms.size(); ++k) {
+    RecordingJudge judge(vehicle_, kMaxGap);
+    for (int i = 0; i <= 500; ++i) {
+      judge.AddMotion(judge.At("deck", "base_link"), kStart + i * kPeriod, At(Rolls(i)));
+      judge.AddMotion(judge.At("earth", "deck"), kStart + i * kPeriod, At(platforms[k](0.02 * i)));
+    }
+    const RecordingJudge::Way way = {"base_link", "deck", "earth"};
+    EXPECT_EQ(judge.SmoothFrame(way), "earth") << k;
+    EXPECT_TRUE(judge.Report(way, "earth").empty()) << k;
+  }
+}
+
 TEST_F(RecordingJudgeTest, WithoutJumpsTheTopmostFrameIsInertial) {
   Drive("odom", "base_link", Rolls);
   Drive("ship", "odom", [](int) { return 3.0; });
@@ -168,6 +243,22 @@ TEST_F(RecordingJudgeTest, PublishersThatAgreeAreFine) {
     if (i % 5 == 0) judge_.AddSaid(edge, slow, kStart + i * kPeriod + 7'000'000, travel(i + 0.35));
   }
   EXPECT_TRUE(judge_.Report({"base_link"}, "base_link").empty());
+}
+
+TEST_F(RecordingJudgeTest, AnAttitudeInDegreesIsToldInsteadOfWhatComesOfIt) {
+  for (int i = 0; i <= 500; ++i) {
+    Pose pose = At(Rolls(i));
+    pose.q = Eigen::AngleAxisd(2 * std::sin(0.15 * i), Eigen::Vector3d::UnitX());
+    judge_.AddMotion(judge_.At("odom", "base_link"), kStart + i * kPeriod, pose);
+    // A wheel under a parent that the URDF does not know.
+    pose.q = Eigen::AngleAxisd(0.8 * i, Eigen::Vector3d::UnitY());
+    pose.p.setZero();
+    judge_.AddMotion(judge_.At("axle", "strut"), kStart + i * kPeriod, pose);
+  }
+  const Findings findings = judge_.Report({"base_link", "odom"}, "odom");
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].kind, "degrees");
+  EXPECT_EQ(findings[0].subject, "odom -> base_link");
 }
 
 TEST_F(RecordingJudgeTest, FixedTransformsThatContradictAreTold) {

@@ -42,6 +42,7 @@ struct BagSurvey {
   std::vector<ClampJudge> clamps;  ///< of each cable, where they were followed
   Findings findings;               ///< what the recording says that cannot be
   std::vector<std::string> notes;  ///< what the user may want to set otherwise
+  std::vector<ConstantEdge> constants;  ///< transforms that hold outside their samples too
 };
 
 struct Inputs {

@@ -14,6 +14,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cosserat_cable/math/gap_rule.h"
@@ -27,6 +28,13 @@
 
 namespace cosserat_cable {
 
+/// A transform that is sent as if it moved, and never does.
+struct ConstantEdge {
+  std::string parent, child;
+  Pose X_PC;
+  double interval = 0;  ///< the longest one between two samples [s]
+};
+
 struct LinkMotionOptions {
   std::string world_frame;               ///< inertial; empty: the root of the tree above the links
   std::vector<std::string> held_joints;  ///< stay at rest, see RestPosition: nothing drives them
@@ -34,10 +42,11 @@ struct LinkMotionOptions {
   /// What stands before the URDF's names in recorded frames and joints: "rover1" is taken for
   /// "rover1/", "rover1_" as it is. Empty: nothing.
   std::string tf_prefix;
-  double max_gap = 0.25;  ///< [s], see PoseCurve
-  double smooth = 0;      ///< cutoff [Hz], see EdgeSmoother; 0: none
-  bool judge = true;      ///< whether the samples are judged, see Findings
-  bool is_node = false;   ///< options are named in messages as the node's parameters
+  double max_gap = 0.25;                ///< [s], see PoseCurve
+  double smooth = 0;                    ///< cutoff [Hz], see EdgeSmoother; 0: none
+  std::vector<ConstantEdge> constants;  ///< hold at all times, see LinkMotion::Constants
+  bool judge = true;                    ///< whether the samples are judged, see Findings
+  bool is_node = false;                 ///< options are named in messages as the node's parameters
 };
 
 class LinkMotion {
@@ -64,17 +73,25 @@ class LinkMotion {
     std::int64_t first_gap = 0;         ///< the stamp before it [ns]
     std::int64_t longest_gap = 0, longest_gap_at = 0;  ///< [ns], and the stamp before it
     std::int64_t longest_gap_recorded = 0;  ///< the same by times of recording [ns]; 0: not known
-    bool moves = false;                 ///< whether any two samples differ
-    bool is_followed = false;           ///< whether a link depends on it
-    MotionTree::Edge samples_of;        ///< where they are kept, once there are any
+    bool moves = false;                     ///< whether any two samples differ
+    bool is_followed = false;               ///< whether a link depends on it
+    bool is_constant = false;               ///< of the options: its samples say nothing new
+    MotionTree::Edge samples_of;            ///< where they are kept, once there are any
 
     Pose last_pose;  ///< or the one pose of a fixed edge
     std::int64_t last_recorded = 0;
     double usual_interval = 0;   ///< [ns]
     std::optional<Sample> held;  ///< after a long interval, until the next one confirms its stamp
     StampDelays delays;
-    std::int64_t least_delay = 0;  ///< of recording after the stamp [ns], where it is known
-    std::uint64_t bad_stamps = 0;  ///< samples that were left out for it
+    std::int64_t least_delay = 0;        ///< of recording after the stamp [ns], where it is known
+    std::uint64_t bad_stamps = 0;        ///< samples that were left out for it
+    std::vector<Warnings::Event> older;  ///< samples in a row that are older than the last one
+    std::int64_t oldest = 0, newest_older = 0;  ///< of these: the first and the latest stamp [ns]
+    std::int64_t hole_end = 0;                  ///< the stamp behind the last long interval [ns]
+    std::uint64_t set_back = 0;                 ///< how often its clock was
+    std::int64_t first_set_back = 0, most_set_back = 0, most_set_back_at = 0;  ///< [ns]
+    std::uint64_t set_forward = 0;  ///< the same by less than a gap
+    std::int64_t first_set_forward = 0, most_set_forward = 0, most_set_forward_at = 0;  ///< [ns]
     GapRule gap_rule;
     RecordingJudge::Edge* judged = nullptr;
     EdgeSmoother* smoother = nullptr;
@@ -110,6 +127,10 @@ class LinkMotion {
   /// together for less. To be asked once all samples are there. `nothing`: set where they are known
   /// together at one instant at most, though more than that was recorded.
   Findings CoverageFindings(const std::string& world, bool* nothing) const;
+  /// The transforms below `world` that never change in the recording, and were not sent yet at its
+  /// begin, or no longer at its end, for no longer than they are sent anyway: they hold all the
+  /// time. To be asked once all samples are there.
+  std::vector<ConstantEdge> Constants(const std::string& world) const;
   /// The latest pose of a frame in one above it, by the last samples of all edges between; nothing
   /// where one is missing.
   std::optional<Pose> LatestPose(const std::string& ancestor, const std::string& frame) const;
@@ -147,6 +168,9 @@ class LinkMotion {
   const Warnings& warnings() const { return warnings_; }
 
  private:
+  /// From which on a clock is said to have been set forward [ns].
+  static constexpr std::int64_t kSetForward = 50'000'000;
+
   struct Step {
     std::string child, parent;
     const JointModel* joint;  // null where the recording alone knows this edge
@@ -170,6 +194,9 @@ class LinkMotion {
                 Source source);
   void AddSample(const std::string& parent, const std::string& child, std::int64_t stamp,
                  const Pose& X_PC, Source source, const double* position = nullptr);
+  void CountOlder(Edge* edge, const Warnings::Event& event, std::int64_t stamp);
+  /// What a sample that goes on says of the older ones before it.
+  void ResolveOlder(Edge* edge);
   /// What the next sample says of the edge's sample that waits.
   void ResolveHeld(Edge* edge, const std::string& child, const Sample& sample);
   /// Whether a sample that is far behind its edge confirms that time ran backwards.
@@ -195,6 +222,9 @@ class LinkMotion {
   /// Frames that move and lead to no link, where the vehicle's root stands still.
   void AddUnconnectedFindings(Findings* findings) const;
   void AddDriftFindings(const std::set<std::string>& above, Findings* findings) const;
+  void AddSetClockFindings(const std::set<std::string>& above, Findings* findings) const;
+  /// When what moves below `above` was recorded [ns]; where nothing does, all that was.
+  std::pair<std::int64_t, std::int64_t> Recorded(const std::set<std::string>& above) const;
   void AddClockFindings(const std::set<std::string>& above, Findings* findings) const;
   void Deliver(Edge* edge, const std::string& child, std::int64_t stamp, const Pose& X_PC);
   void JudgeRejected(const std::string& parent, const std::string& child, std::int64_t stamp,
@@ -234,6 +264,8 @@ class LinkMotion {
 
   std::map<std::string, Unstamped> unstamped_;  // by child
   std::set<std::string> unknown_joints_;
+  std::uint64_t usable_ = 0, unusable_ = 0;  // transforms that may move
+  std::string why_unusable_;                 // the first one
 
   std::optional<RecordingJudge> judge_;
   std::string publisher_;

@@ -33,12 +33,17 @@ class EdgeJudge {
   void Add(std::int64_t stamp, const Pose& X_PC);
   /// Time starts anew; what was found stays.
   void Restart();
+  /// No more samples come: judges the last ones, too.
+  void Finish();
 
   EdgeRole role() const;
   bool moves() const;
-  /// Whether the motion consists of steps from rest to rest, as a localisation's corrections do.
-  bool MovesByJumps() const;
-  /// The largest of these steps. @pre MovesByJumps()
+  /// Whether the motion consists of steps or short slides from rest to rest, as a localisation's
+  /// corrections do.
+  bool IsCorrected() const;
+  /// Whether it accelerates more than what is said to be at rest but for corrections.
+  bool IsRough() const;
+  /// The largest of these. @pre IsCorrected() or IsRough()
   Finding Corrections(const std::string& subject, const std::string& topic) const;
   /// What was found so far; `subject`, `topic`: of the findings.
   Findings Report(const std::string& subject, const std::string& topic) const;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/vehicle/attitude_judge.h"
 #include "cosserat_cable/vehicle/edge_judge.h"
 #include "cosserat_cable/vehicle/finding.h"
 #include "cosserat_cable/vehicle/joint_judge.h"
@@ -28,8 +29,12 @@ class RecordingJudge {
     EdgeJudge motion;
     std::optional<EdgeJudge> correction;  ///< the same as a localisation's; above the vehicle
     std::optional<JointJudge> joint;
+    std::optional<AttitudeJudge> attitude;  ///< of what no joint turns
     PublisherJudge publishers;
     std::optional<Pose> fixed;  ///< while it does not move
+
+    /// Whether it moves as a localisation's corrections do, or does under the name of such.
+    bool IsCorrected() const;
   };
 
   /// `vehicle` outlives this. `max_gap` [s]: motion across longer intervals is not known.
@@ -50,11 +55,15 @@ class RecordingJudge {
                 const std::string& topic, std::int64_t recorded = 0);
   /// Time starts anew; what was found stays.
   void Restart();
+  /// The same for one edge.
+  void Restart(Edge* edge);
+  /// No more samples come.
+  void Finish();
 
   /// Frames from the vehicle's root to the topmost one.
   using Way = std::vector<std::string>;
   /// The highest frame of the way that no localisation's correction moves: below the first edge
-  /// that moves by jumps and has a moving edge below it. The last one where there is none such.
+  /// that is corrected and has a moving edge below it. The last one where there is none such.
   std::string SmoothFrame(const Way& way) const;
   /// What was found so far. `world`: the inertial frame that is taken.
   Findings Report(const Way& way, const std::string& world) const;

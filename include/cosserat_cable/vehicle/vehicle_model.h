@@ -54,7 +54,7 @@ struct VehicleModel {
   std::map<std::string, std::vector<Shape>> collision;
   std::map<std::string, std::vector<Shape>> visual;  ///< likewise, of VehicleUse::visual_links
   Problems warnings;  ///< what contradicts itself, and is taken by urdfdom all the same
-  Problems notes;                                    ///< what is worth knowing, and stops nothing
+  Problems notes;     ///< what is worth knowing, and stops nothing
 
   const JointModel* FindJoint(const std::string& name) const;  ///< null where there is none
   bool HasLink(const std::string& name) const;
