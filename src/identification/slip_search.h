@@ -34,12 +34,22 @@ struct Found {
   FormFit fit;
   double complexity = 0;
   const InputSlip* input = nullptr;
+  double factor = 1;                                   ///< of the input
+  std::vector<std::pair<std::string, double>> values;  ///< of the cable's parameters
+};
+
+/// What was found beside the channels in another record, and the parameters with it mended.
+struct KnownSlip {
+  std::string text;
+  double factor = 1;
+  std::vector<std::pair<std::string, double>> values;
 };
 
 class SlipSearch {
  public:
   SlipSearch(const MeasurementSet& set, int experiment, const ExperimentFit& fit,
-             const Points& points, const std::string& known, const std::function<bool()>& stop)
+             const Points& points, const std::optional<KnownSlip>& known,
+             const std::function<bool()>& stop)
       : set_(set),
         known_(known),
         index_(experiment),
@@ -54,10 +64,10 @@ class SlipSearch {
   }
 
   std::vector<ChannelSlip> Find();
-  /// The set with what was found mended where that holds for all records; null where nothing was.
-  const MeasurementSet* mended() const { return mended_; }
-  /// The words for it, where it is of what acts on the cable.
-  const std::string& input() const { return input_; }
+  /// The set with what was found mended where that holds for all records; none where nothing was.
+  const std::optional<MeasurementSet>& mended() const { return mended_; }
+  /// What was found, where it is beside the channels.
+  const std::optional<KnownSlip>& input() const { return input_; }
 
  private:
   Eigen::VectorXd Levels(const ExperimentFit& fit) const;
@@ -70,17 +80,21 @@ class SlipSearch {
   bool Explains(const FormFit& fit, double least, bool simplest = true) const;
   void SnapToUnits(RecordForm* form) const;
   std::vector<Found> OfChannels(const FormFit& looked, const FormFit& plain, double least) const;
-  std::vector<Found> OfInputs(double least, const std::vector<Found>& beside) const;
-  std::optional<Found> OfInput(const InputSlip& input, double least) const;
+  std::vector<Found> OfInputs(const FormFit& looked, const FormFit& plain, double least,
+                              const std::vector<Found>& beside) const;
+  std::optional<Found> OfInput(const InputSlip& input, double factor, const FormFit& looked,
+                               double least) const;
+  double BestFactor(const InputSlip& input, const FormFit& plain) const;
+  bool IsHealthy(const FormFit& plain, const std::optional<Found>& same) const;
   FormFit WholeOf(const SlipModel& model, const FormFit& part, double least) const;
   double FarFromSet(const SlipModel& model, const FormFit& fit) const;
-  std::vector<ChannelSlip> Words(const Found& found, const Found* other) const;
+  std::vector<ChannelSlip> Words(const Found& found, const std::vector<const Found*>& others) const;
   ChannelSlip OfChannel(std::size_t channel, const FormFit& fit) const;
   ChannelSlip OfClock(const FormFit& fit) const;
-  ChannelSlip OfInput(const InputSlip& input, const FormFit& fit) const;
+  ChannelSlip OfInput(const Found& found) const;
 
   const MeasurementSet& set_;
-  std::string known_;  // the words for what was found in another record
+  std::optional<KnownSlip> known_;
   int index_;
   const Experiment& experiment_;
   Eigen::MatrixXd usable_;
@@ -90,8 +104,8 @@ class SlipSearch {
   SlipModel model_;
   std::vector<InputSlip> inputs_;
   Eigen::VectorXd before_;  // by channel, mean square left over the level's
-  const MeasurementSet* mended_ = nullptr;
-  std::string input_;
+  std::optional<MeasurementSet> mended_;
+  std::optional<KnownSlip> input_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
