@@ -1,8 +1,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cosserat_cable/input/number_text.h"
@@ -178,19 +179,21 @@ class ExperimentLooks {
     return channel.in_frame_a ? 0 : PositionAt(experiment_.a, t)[channel.axis];
   }
 
-  /// Whether nearly all samples are within the cable's reach of where a clamp is at them.
+  /// Whether nearly all samples are within `reach` [m] of where a clamp is at them.
   template <typename ClampAt>
-  bool ReachesFrom(const ClampAt& clamp_at, const Eigen::VectorXd& values, double factor) const {
+  static bool ReachesFrom(const ClampAt& clamp_at, const Eigen::VectorXd& values, double factor,
+                          double reach) {
     Eigen::Index beyond = 0;
     for (Eigen::Index i = 0; i < values.size(); ++i)
-      if (std::abs(factor * values[i] - clamp_at(i)) > reach_) ++beyond;
+      if (std::abs(factor * values[i] - clamp_at(i)) > reach) ++beyond;
     return static_cast<double>(beyond) <= kOutliers * static_cast<double>(values.size());
   }
 
   /// The same, of times that are late by so much [s].
   bool Reaches(const Channel& channel, const Eigen::VectorXd& values, double factor,
                double late = 0) const {
-    return ReachesFrom([&](Eigen::Index i) { return Origin(channel, i, late); }, values, factor);
+    return ReachesFrom([&](Eigen::Index i) { return Origin(channel, i, late); }, values, factor,
+                       reach_);
   }
 
   /// The unit of clamp a's motion, whole or from its first position, that brings all channels
@@ -215,9 +218,8 @@ class ExperimentLooks {
       double factor;
       const char* name;
     };
-    // Of several that do, the one with which the cable follows the clamp best.
-    std::string best;
-    double least = std::numeric_limits<double>::infinity();
+    // Of several that do, first the one with which the cable follows the clamp best.
+    std::map<std::string, double> found;
     for (const Unit& unit : {Unit{1e-3, "mm"}, Unit{1e-2, "cm"}, Unit{0.0254, "inches"}})
       for (const Eigen::Vector3d& from :
            {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(a.motion->poses.front().p)}) {
@@ -229,15 +231,21 @@ class ExperimentLooks {
           Eigen::VectorXd clamp(values.size());
           for (Eigen::Index i = 0; i < values.size(); ++i)
             clamp[i] = first + unit.factor * (Origin(*channel, i) - first);
-          reaches = reaches && ReachesFrom([&](Eigen::Index i) { return clamp[i]; }, values, 1);
+          reaches = reaches && ReachesFrom([&](Eigen::Index i) { return clamp[i]; }, values, 1,
+                                           kReach * channel->s);
           const Eigen::VectorXd distance = values - clamp;
           apart += (distance.array() - distance.mean()).square().mean();
         }
-        if (!reaches || !(apart < least)) continue;
-        least = apart;
-        best = unit.name;
+        if (!reaches) continue;
+        const auto known = found.emplace(unit.name, apart).first;
+        known->second = std::min(known->second, apart);
       }
-    return best;
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [name, apart] : found) order.push_back({apart, name});
+    std::sort(order.begin(), order.end());
+    std::string names;
+    for (const auto& [apart, name] : order) names += (names.empty() ? "" : ", or ") + name;
+    return names;
   }
 
   /// By how much the record's times would have to be late or early [s]: the least that will do.
