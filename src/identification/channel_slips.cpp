@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/fit/damage.h"
 #include "cosserat_cable/fit/noise_level.h"
 #include "cosserat_cable/input/number_text.h"
@@ -19,6 +20,8 @@ namespace {
 
 // What a record's own fit may take [s], and in parts of the whole fit.
 constexpr double kLeastTime = 3, kPartOfFit = 0.1;
+// Stiffnesses that two records show are the same within this, relative.
+constexpr double kSameStiffness = 0.02;
 // Records whose slips are looked for, the worst first: each takes seconds.
 constexpr std::size_t kMostRecords = 8;
 
@@ -90,6 +93,68 @@ std::vector<ChannelSlip> OffsetsBesideAStart(const MeasurementSet& set, std::siz
   return slips;
 }
 
+/// A record that fits as it is, alone.
+struct FitsAlone {
+  std::size_t experiment = 0;
+  Values values;
+};
+
+/// The farther of two records' stiffnesses, as a factor's logarithm.
+double Apart(const Values& a, const Values& b) {
+  double farthest = 0;
+  for (const auto& [name, value] : a)
+    for (const auto& [other, there] : b)
+      if (name == other && IsStiffness(name))
+        farthest = std::max(farthest, std::abs(std::log(value / there)));
+  return farthest;
+}
+
+/// Each record fits by itself, all together do not: the slips of those that have no more company
+/// than another one, with the stiffness that this has.
+std::vector<ChannelSlip> SlipsBetween(const MeasurementSet& set, const Estimation& fit,
+                                      const Points& points, const std::vector<FitsAlone>& alone,
+                                      const std::function<bool()>& stop) {
+  std::vector<int> company;
+  for (const FitsAlone& one : alone)
+    company.push_back(
+        static_cast<int>(std::count_if(alone.begin(), alone.end(), [&](const FitsAlone& other) {
+          return Apart(one.values, other.values) < kSameStiffness;
+        })));
+  std::vector<ChannelSlip> slips;
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    const FitsAlone* other = nullptr;
+    int most = company[k];
+    for (std::size_t o = 0; o < alone.size(); ++o)
+      if (company[o] >= most && Apart(alone[k].values, alone[o].values) > kSameStiffness) {
+        other = &alone[o];
+        most = company[o] + 1;
+      }
+    if (!other || !set.cable.uncertain.value) continue;
+    MeasurementSet known = set;
+    std::string names;
+    auto& uncertain = *known.cable.uncertain.value;
+    for (const auto& [name, value] : other->values) {
+      if (!IsStiffness(name)) continue;
+      SetParameter(name, value, &known.cable);
+      uncertain.erase(
+          std::remove_if(uncertain.begin(), uncertain.end(),
+                         [&, &of = name](const UncertainKey& key) { return key.name == of; }),
+          uncertain.end());
+      names += (names.empty() ? "[" : ", [") + name + "]";
+    }
+    const std::size_t e = alone[k].experiment;
+    SlipSearch search(known, static_cast<int>(e), fit.experiments[e], points, std::nullopt, stop,
+                      false);
+    for (ChannelSlip slip : search.Find()) {
+      slip.text += ", where " + names + " is as " + set.experiments[other->experiment].name +
+                   " has it: one of the two records slips";
+      slip.values = other->values;
+      slips.push_back(slip);
+    }
+  }
+  return slips;
+}
+
 }  // namespace
 
 std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& fit,
@@ -115,6 +180,7 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
   EstimationOptions of_record = options;
   std::optional<KnownSlip> input;
+  std::vector<FitsAlone> alone;
   for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords) && !ended(); ++k) {
     const std::size_t e = suspects[k].second;
     if (options.progress &&
@@ -130,10 +196,11 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
     SlipSearch search(now, static_cast<int>(e), fit.experiments[e], points, input, ended);
     const std::vector<ChannelSlip> found = search.Find();
     slips.insert(slips.end(), found.begin(), found.end());
+    if (search.alone()) alone.push_back({e, *search.alone()});
     if (search.mended()) *mended = *search.mended();
     if (search.input()) input = search.input();
   }
-  return slips;
+  return slips.empty() ? SlipsBetween(set, fit, points, alone, ended) : slips;
 }
 
 void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,

@@ -15,6 +15,10 @@ namespace {
 constexpr double kGravity = 9.80665, kPound = 0.45359237, kOunce = kPound / 16;
 // What people leave out or count twice of a force: from a tenth to ten times.
 constexpr double kLeastOfLoad = 0.1, kMostOfLoad = 10;
+// [s] Nobody looks at a cable that swings for longer.
+constexpr double kLongestRecord = 100;
+// A rate of sampling that was taken for another one.
+constexpr double kLeastOfTimes = 0.3, kMostOfTimes = 3.5;
 constexpr double kRadians = 0.017453292519943295;
 
 using Slips = std::vector<InputSlip>;
@@ -124,6 +128,23 @@ void AddGravities(const Experiment& experiment, std::size_t e, Slips* slips) {
     }
 }
 
+/// Times since the record's first, that another rate of sampling makes.
+void AddTimes(const Experiment& experiment, std::size_t e, Slips* slips) {
+  if (experiment.quasi_static() || experiment.record.t.empty()) return;
+  const auto stretch = [e](double factor, MeasurementSet* changed) {
+    std::vector<double>& t = changed->experiments[e].record.t;
+    const double first = t.front();
+    for (double& one : t) one = first + factor * (one - first);
+  };
+  const double duration = experiment.record.t.back() - experiment.record.t.front();
+  for (const double factor : {1e3, 60.0, 1e-3})
+    if (factor * duration < kLongestRecord)
+      slips->push_back({"clock", "with times " + FormatRounded(factor) + " times as long", factor,
+                        "", false, 0, 0, stretch});
+  slips->push_back({"clock", "times its times (another sampling rate?)", 1, "", false,
+                    kLeastOfTimes, kMostOfTimes, stretch});
+}
+
 }  // namespace
 
 std::vector<InputSlip> InputSlips(const MeasurementSet& set, std::size_t e) {
@@ -152,8 +173,9 @@ std::vector<InputSlip> InputSlips(const MeasurementSet& set, std::size_t e) {
              uncertain.value->push_back({name, uncertain.mark});
            }});
   }
-  AddMotionSlips(set, e, &slips);
   AddGravities(experiment, e, &slips);
+  AddMotionSlips(set, e, &slips);
+  AddTimes(experiment, e, &slips);
   std::stable_partition(slips.begin(), slips.end(),
                         [](const InputSlip& slip) { return !slip.free_factor(); });
   return slips;

@@ -26,7 +26,7 @@ constexpr double kLargestGain = 20;
 constexpr std::size_t kMostForms = 12, kMostWhole = 6;
 // Of what is left, a form must leave less than this part to be simulated more finely; and where
 // something was found, no more of what acts on the cable is tried after so long [s].
-constexpr double kPromises = 0.1, kEnoughTime = 10;
+constexpr double kPromises = 0.1, kEnoughTime = 30;
 // Complexities: of one slip, of more than two, and of so many that they explain anything.
 constexpr double kSimple = 1.5, kSeveral = 2.8, kTooComplex = 6;
 // Of a start that is elsewhere, and of a factor that is to be found, beside a turned sign or a
@@ -53,11 +53,11 @@ double Complexity(const ChannelForm& form, bool other_column, bool of_unit) {
          (scaled && moved && !of_unit ? 0.5 : 0.0);
 }
 
+}  // namespace
+
 bool IsStiffness(const std::string& name) {
   return name == "EI" || name == "EI1" || name == "EI2" || name == "GJ";
 }
-
-}  // namespace
 
 Eigen::VectorXd SlipSearch::Levels(const ExperimentFit& fit) const {
   Eigen::VectorXd level(static_cast<Eigen::Index>(fit.channels.size()));
@@ -453,7 +453,7 @@ bool SlipSearch::IsHealthy(const FormFit& plain, const std::optional<Found>& sam
   const FormFit as_the_other = model_.At(known_->values);
   if (as_the_other.ok && !(as_the_other.left.maxCoeff() > kFarAbove)) return true;
   if (!same) return true;
-  const auto distance = [&](const Points::value_type& values) {
+  const auto distance = [&](const Values& values) {
     double sum = 0;
     for (const auto& [name, value] : values)
       for (const auto& [other, known] : known_->values)
@@ -481,7 +481,10 @@ std::vector<ChannelSlip> SlipSearch::Find() {
     if (IsHealthy(plain, same)) return {};
     if (same && !(same->fit.left.maxCoeff() > kFarAbove)) return Words(*same, {});
   }
-  if (plain.ok && !(plain.left.maxCoeff() > kFarAbove)) return {};
+  if (plain.ok && !(plain.left.maxCoeff() > kFarAbove)) {
+    alone_ = model_.ValuesOf(plain);
+    return {};
+  }
   if (plain.ok) least = std::min(least, plain.mean());
   if (model_.ok()) {
     if (!(least * static_cast<double>(before_.size()) > kFarAbove)) return {};

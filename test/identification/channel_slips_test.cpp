@@ -184,9 +184,10 @@ TEST(ChannelSlipsTest, DegreesForRadians) {
 }
 
 /// The cable hangs, its end pulled aside in steps by a force along x, and seen along x.
-Experiment Loaded(const char* name, double farthest) {
+Experiment Loaded(const char* name, double farthest, double g = 9.81) {
   Experiment experiment;
   experiment.name = name;
+  experiment.gravity_W = {0, 0, -g};
   experiment.a.pose.q = Eigen::Quaterniond(0, 1, 0, 0);
   experiment.b.kind = EndCondition::Kind::kFree;
   const double L = CableSpecimen().cable.length;
@@ -260,6 +261,36 @@ TEST(ChannelSlipsTest, AHalvedLoadIsAFactorAndNoUnit) {
   // Half of the force bends a cable of half of the stiffness: its number is not the cable's.
   const ParameterEstimate& EI = estimation.parameters[0];
   EXPECT_TRUE(!EI.determined || !EI.doubt.empty());
+}
+
+TEST(ChannelSlipsTest, RecordsThatOnlyContradictEachOtherAreBothTold) {
+  // Without weight and hardly bent, force and stiffness are told from each other by no record.
+  MeasurementSet set = SetWith(Loaded("first", 0.01, 0), "[EI]");
+  set.experiments.push_back(Loaded("second", 0.012, 0));
+  ScaleLoad(0.2248089, &set.experiments[1]);
+  const Estimation estimation = Fitted(set);
+  ASSERT_EQ(estimation.slips.size(), 2u) << AllSlips(estimation);
+  for (const ChannelSlip& slip : estimation.slips)
+    EXPECT_NE(slip.text.find("one of the two records slips"), std::string::npos) << slip.text;
+  EXPECT_NE(AllSlips(estimation).find("second fits with its load in pounds"), std::string::npos)
+      << AllSlips(estimation);
+  const ParameterEstimate& EI = estimation.parameters[0];
+  EXPECT_TRUE(!EI.determined || !EI.doubt.empty());
+}
+
+TEST(ChannelSlipsTest, ARateOfSamplingThatIsAnotherOne) {
+  Experiment experiment = Swinging();
+  // Its weight tells the stiffness from the time.
+  experiment.gravity_W = {0, 0, -9.81};
+  experiment.start = {};
+  experiment.start.kind = StartCondition::Kind::kHeld;
+  const double L = CableSpecimen().cable.length;
+  experiment.start.held = {L, {0.95 * L, 0, 0.03}};
+  Record(CableSpecimen(), kNoise, &experiment);
+  for (double& t : experiment.record.t) t *= 2;
+  const ChannelSlip slip = OnlySlip(Fitted(experiment));
+  EXPECT_EQ(slip.kind, "clock");
+  EXPECT_NEAR(slip.factor, 0.5, 0.02);
 }
 
 /// A cantilever along x on a clamp that moves and turns, its end and middle seen along x and z.
