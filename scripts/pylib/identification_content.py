@@ -92,6 +92,8 @@ def parameter_table(data, intervals):
         how = 'fitted to all records' if not differs else (
             f"the mean of {differs['records']} records, which differ by "
             f"{number(differs['sd'])} (standard deviation)")
+        if name in (data.get('untrusted') or {}):
+            how = 'not to be trusted: ' + data['untrusted'][name]
         rows.append([name, unit_of(name, data), number(value, sd),
                      f'{number(low, sd)} to {number(high, sd)}',
                      '-' if share is None else '±' + percent(share), begun, how])

@@ -145,6 +145,7 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
                  {"converged", estimation.converged}};
   answer["parameters"] = json::object();
   answer["undetermined"] = json::object();
+  answer["untrusted"] = json::object();
   answer["nuisances"] = json::object();
   json names = json::array();
   std::vector<int> shown;
@@ -163,6 +164,7 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
     answer["parameters"][name] = value;
     answer["units"][name] = one.unknown.unit;
     if (one.unknown.start_known) answer["start"][name] = one.unknown.start;
+    if (!one.doubt.empty()) answer["untrusted"][name] = one.doubt;
     if (one.determined) {
       answer["intervals"][name] = {one.low, one.high};
       answer["intervals_of_curvature"][name] = {one.value - one.quantile * one.sd,
@@ -256,10 +258,11 @@ std::string AnswerTable(const MeasurementSet& set, const Estimation& estimation)
     if (!OfCable(one)) continue;
     const int digits = DigitsFor(one.value, one.sd);
     if (one.determined)
-      std::snprintf(line, sizeof line, "%-*s %13s %13s %13s  %-9s\n", width,
+      std::snprintf(line, sizeof line, "%-*s %13s %13s %13s  %-9s%s\n", width,
                     one.unknown.name.c_str(), FormatRounded(one.value, digits).c_str(),
                     FormatRounded(one.low, digits).c_str(), FormatRounded(one.high, digits).c_str(),
-                    one.unknown.unit.c_str());
+                    one.unknown.unit.c_str(),
+                    one.doubt.empty() ? "" : "  not to be trusted: see the warnings");
     else
       std::snprintf(line, sizeof line, "%-*s %13s  %s\n", width, one.unknown.name.c_str(),
                     "undetermined", one.reason.substr(0, 200).c_str());

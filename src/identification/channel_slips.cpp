@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 
+#include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/fit/damage.h"
 #include "cosserat_cable/fit/noise_level.h"
 #include "cosserat_cable/input/number_text.h"
@@ -19,6 +20,8 @@ namespace {
 
 // What a record's own fit may take [s], and in parts of the whole fit.
 constexpr double kLeastTime = 3, kPartOfFit = 0.1;
+// Stiffnesses that two records show are the same within this, relative.
+constexpr double kSameStiffness = 0.02;
 // Records whose slips are looked for, the worst first: each takes seconds.
 constexpr std::size_t kMostRecords = 8;
 
@@ -45,6 +48,12 @@ double Suspicion(const Experiment& experiment, const ExperimentFit& fit) {
   return worst;
 }
 
+EstimationOptions Cheap(EstimationOptions options) {
+  options.profiles = options.scatter = options.slips = false;
+  options.unknowns.scatter.clear();
+  return options;
+}
+
 /// With an unknown start, sign and scale are the start's; a constant is not. Through the fit
 /// itself, which finds the start.
 std::vector<ChannelSlip> OffsetsBesideAStart(const MeasurementSet& set, std::size_t e,
@@ -53,11 +62,8 @@ std::vector<ChannelSlip> OffsetsBesideAStart(const MeasurementSet& set, std::siz
   MeasurementSet one = set;
   one.experiments = {set.experiments[e]};
   for (Channel& channel : one.experiments.front().channels) channel.unknown_offset = true;
-  EstimationOptions cheap = options;
-  cheap.profiles = cheap.scatter = cheap.slips = false;
-  cheap.unknowns.scatter.clear();
   Problems unused;
-  const Estimation fit = Estimate(one, cheap, &unused);
+  const Estimation fit = Estimate(one, Cheap(options), &unused);
   std::vector<ChannelSlip> slips;
   if (!fit.ok || !unused.empty()) return slips;
   const Experiment& experiment = set.experiments[e];
@@ -87,10 +93,73 @@ std::vector<ChannelSlip> OffsetsBesideAStart(const MeasurementSet& set, std::siz
   return slips;
 }
 
+/// A record that fits as it is, alone.
+struct FitsAlone {
+  std::size_t experiment = 0;
+  Values values;
+};
+
+/// The farther of two records' stiffnesses, as a factor's logarithm.
+double Apart(const Values& a, const Values& b) {
+  double farthest = 0;
+  for (const auto& [name, value] : a)
+    for (const auto& [other, there] : b)
+      if (name == other && IsStiffness(name))
+        farthest = std::max(farthest, std::abs(std::log(value / there)));
+  return farthest;
+}
+
+/// Each record fits by itself, all together do not: the slips of those that have no more company
+/// than another one, with the stiffness that this has.
+std::vector<ChannelSlip> SlipsBetween(const MeasurementSet& set, const Estimation& fit,
+                                      const Points& points, const std::vector<FitsAlone>& alone,
+                                      const std::function<bool()>& stop) {
+  std::vector<int> company;
+  for (const FitsAlone& one : alone)
+    company.push_back(
+        static_cast<int>(std::count_if(alone.begin(), alone.end(), [&](const FitsAlone& other) {
+          return Apart(one.values, other.values) < kSameStiffness;
+        })));
+  std::vector<ChannelSlip> slips;
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    const FitsAlone* other = nullptr;
+    int most = company[k];
+    for (std::size_t o = 0; o < alone.size(); ++o)
+      if (company[o] >= most && Apart(alone[k].values, alone[o].values) > kSameStiffness) {
+        other = &alone[o];
+        most = company[o] + 1;
+      }
+    if (!other || !set.cable.uncertain.value) continue;
+    MeasurementSet known = set;
+    std::string names;
+    auto& uncertain = *known.cable.uncertain.value;
+    for (const auto& [name, value] : other->values) {
+      if (!IsStiffness(name)) continue;
+      SetParameter(name, value, &known.cable);
+      uncertain.erase(
+          std::remove_if(uncertain.begin(), uncertain.end(),
+                         [&, &of = name](const UncertainKey& key) { return key.name == of; }),
+          uncertain.end());
+      names += (names.empty() ? "[" : ", [") + name + "]";
+    }
+    const std::size_t e = alone[k].experiment;
+    SlipSearch search(known, static_cast<int>(e), fit.experiments[e], points, std::nullopt, stop,
+                      false);
+    for (ChannelSlip slip : search.Find()) {
+      slip.text += ", where " + names + " is as " + set.experiments[other->experiment].name +
+                   " has it: one of the two records slips";
+      slip.values = other->values;
+      slips.push_back(slip);
+    }
+  }
+  return slips;
+}
+
 }  // namespace
 
 std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& fit,
-                                   const EstimationOptions& options) {
+                                   const EstimationOptions& options,
+                                   std::optional<MeasurementSet>* mended) {
   std::vector<std::pair<double, std::size_t>> suspects;
   for (std::size_t e = 0; e < set.experiments.size(); ++e)
     if (const double worst = Suspicion(set.experiments[e], fit.experiments[e]); worst > 0)
@@ -110,9 +179,8 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   };
   const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
   EstimationOptions of_record = options;
-  // With what holds for all records mended.
-  std::optional<MeasurementSet> mended;
-  std::string input;
+  std::optional<KnownSlip> input;
+  std::vector<FitsAlone> alone;
   for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords) && !ended(); ++k) {
     const std::size_t e = suspects[k].second;
     if (options.progress &&
@@ -124,14 +192,68 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
       slips.insert(slips.end(), found.begin(), found.end());
       continue;
     }
-    const MeasurementSet now = mended ? *mended : set;
+    const MeasurementSet now = mended->value_or(set);
     SlipSearch search(now, static_cast<int>(e), fit.experiments[e], points, input, ended);
     const std::vector<ChannelSlip> found = search.Find();
     slips.insert(slips.end(), found.begin(), found.end());
-    if (search.mended()) mended = *search.mended();
-    if (!search.input().empty()) input = search.input();
+    if (search.alone()) alone.push_back({e, *search.alone()});
+    if (search.mended()) *mended = *search.mended();
+    if (search.input()) input = search.input();
   }
-  return slips;
+  return slips.empty() ? SlipsBetween(set, fit, points, alone, ended) : slips;
+}
+
+void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
+                const EstimationOptions& options, Estimation* fit) {
+  const auto suspected = [&](std::size_t e, bool also_of_set) {
+    return !fit->experiments[e].left_out &&
+           std::any_of(fit->slips.begin(), fit->slips.end(), [&](const ChannelSlip& slip) {
+             return slip.of_set ? also_of_set : slip.experiment == mended.experiments[e].name;
+           });
+  };
+  MeasurementSet rest = mended;
+  rest.experiments.clear();
+  for (std::size_t e = 0; e < mended.experiments.size(); ++e)
+    if (!suspected(e, false)) rest.experiments.push_back(mended.experiments[e]);
+  EstimationOptions of_rest = Cheap(options);
+  of_rest.time_limit = std::max(kLeastTime, fit->seconds);
+  for (const ParameterEstimate& one : fit->parameters)
+    if (one.unknown.kind == Unknown::Kind::kCable)
+      of_rest.guesses.push_back({one.unknown.name, one.value});
+  std::optional<Estimation> others;
+  for (ParameterEstimate& one : fit->parameters) {
+    if (!one.determined || one.unknown.kind != Unknown::Kind::kCable) continue;
+    const int unknown = unknowns.Find(one.unknown.name);
+    bool depends = false;
+    for (std::size_t e = 0; e < mended.experiments.size(); ++e)
+      depends |= suspected(e, true) && unknowns.Concerns(unknown, static_cast<int>(e));
+    if (!depends) continue;
+    if (!others) {
+      Problems unused;
+      others = rest.experiments.empty() ? Estimation() : Estimate(rest, of_rest, &unused);
+    }
+    const double half = 0.5 * (one.high - one.low);
+    std::string instead;
+    bool known = false;
+    for (const ParameterEstimate& other : others->parameters) {
+      if (other.unknown.name != one.unknown.name || !other.determined) continue;
+      known = true;
+      if (std::abs(other.value - one.value) > std::hypot(half, 0.5 * (other.high - other.low)))
+        instead = "without that it is " + FormatRounded(other.value);
+    }
+    std::string slips;
+    for (const ChannelSlip& slip : fit->slips) {
+      const auto is_it = [&](const auto& value) { return value.first == one.unknown.name; };
+      const auto own = std::find_if(slip.values.begin(), slip.values.end(), is_it);
+      if (own == slip.values.end()) continue;
+      slips += slip.experiment + " " + slip.text + "; ";
+      if (!known && (own->second < one.low || own->second > one.high))
+        instead = "with that mended it is some " + FormatRounded(own->second, 3);
+    }
+    if (instead.empty()) continue;
+    one.doubt = slips + instead + " " + one.unknown.unit;
+    fit->warnings.push_back("[" + one.unknown.name + "] is not to be trusted: " + one.doubt);
+  }
 }
 
 void CheckClocks(const MeasurementSet& set, Problems* problems) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "channel_slips.h"
 #include "estimation_remarks.h"
@@ -64,8 +65,11 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
   work->Report(unknown_options.scatter);
   Estimation estimation = work->Answer();
   if (options.slips && !work->hurried()) {
-    estimation.slips = FindSlips(set, estimation, options);
+    std::optional<MeasurementSet> mended;
+    estimation.slips = FindSlips(set, estimation, options, &mended);
     NameSlips(*unknowns, &estimation);
+    if (!estimation.slips.empty())
+      DoubtSlips(mended.value_or(set), *unknowns, options, &estimation);
   }
   return estimation;
 }

@@ -31,11 +31,13 @@ std::optional<std::string> PlaceInLine(const std::string& key, const ParameterEs
 /// The interval is the one of the table.
 std::string Found(const std::string& key, const ParameterEstimate& one) {
   const std::string& name = one.unknown.name;
-  if (one.determined && key == name + "2") return "identified with " + name + "1, in proportion";
+  const std::string doubt = one.doubt.empty() ? "" : "; not to be trusted: " + one.doubt;
+  if (one.determined && key == name + "2")
+    return "identified with " + name + "1, in proportion" + doubt;
   if (!one.determined) return "not determined by the data: " + one.reason;
   const int digits = DigitsFor(one.value, one.sd);
   return "identified, 95 % from " + FormatRounded(one.low, digits) + " to " +
-         FormatRounded(one.high, digits);
+         FormatRounded(one.high, digits) + doubt;
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ SlipModel::~SlipModel() = default;
 SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::VectorXd& level,
                      const Eigen::MatrixXd& usable,
                      const std::vector<std::vector<std::pair<std::string, double>>>& points,
-                     const std::function<bool()>& stop)
+                     const std::function<bool()>& stop, bool near)
     : experiment_(set.experiments[static_cast<std::size_t>(experiment)]),
       level_(level),
       usable_(usable) {
@@ -155,35 +155,20 @@ SlipModel::SlipModel(const MeasurementSet& set, int experiment, const Eigen::Vec
   second_ = part(kSecondPeriods, kSecondPart);
   whole_ = part(0, 1);
 
-  const auto logarithms = [&](const Eigen::VectorXd& values) {
-    Eigen::VectorXd at(static_cast<Eigen::Index>(free_.size()));
-    for (std::size_t k = 0; k < free_.size(); ++k) {
-      const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
-      at[static_cast<Eigen::Index>(k)] =
-          std::log(std::clamp(values[free_[k]], std::max(u.lower, 1e-6 * u.scale), u.upper));
-    }
-    return at;
-  };
-  const Eigen::VectorXd start = unknowns_->StartValues();
-  points_.push_back(logarithms(start));
-  for (const auto& named : points) {
-    Eigen::VectorXd values = start;
-    for (const auto& [name, value] : named)
-      if (const int i = unknowns_->Find(name); i >= 0 && std::isfinite(value)) values[i] = value;
-    points_.push_back(logarithms(values));
-  }
+  if (!near || points.empty()) points_.push_back(Logarithms({}));
+  for (const auto& named : points) points_.push_back(Logarithms(named));
   // A Latin hypercube: every unknown takes each of its levels once, the first in order.
   std::mt19937 random(kSeed);
   const std::size_t given = points_.size();
   // No swing is taken for another one where nothing swings.
-  const std::size_t count = experiment_.quasi_static() ? kPointsAtRest : kPoints;
+  const std::size_t count = near ? 0 : experiment_.quasi_static() ? kPointsAtRest : kPoints;
   points_.resize(given + count, points_.front());
   for (std::size_t k = 0; k < free_.size(); ++k) {
     const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
     const double spread = u.damping && !u.start_known ? kDampingSpread : kStiffnessSpread;
     std::vector<std::size_t> order(count);
     for (std::size_t p = 0; p < count; ++p) order[p] = p;
-    for (std::size_t p = count - 1; p > 0 && k > 0; --p)
+    for (std::size_t p = count; p-- > 1 && k > 0;)
       std::swap(order[p], order[random() % static_cast<std::uint32_t>(p + 1)]);
     for (std::size_t p = 0; p < count; ++p)
       points_[given + p][static_cast<Eigen::Index>(k)] +=
@@ -211,6 +196,29 @@ RecordForm SlipModel::Plain() const {
     form.channels.push_back(one);
   }
   return form;
+}
+
+/// The parameters' start with these in their place.
+Eigen::VectorXd SlipModel::Logarithms(
+    const std::vector<std::pair<std::string, double>>& named) const {
+  Eigen::VectorXd values = unknowns_->StartValues();
+  for (const auto& [name, value] : named)
+    if (const int i = unknowns_->Find(name); i >= 0 && std::isfinite(value)) values[i] = value;
+  Eigen::VectorXd at(static_cast<Eigen::Index>(free_.size()));
+  for (std::size_t k = 0; k < free_.size(); ++k) {
+    const Unknown& u = unknowns_->all()[static_cast<std::size_t>(free_[k])];
+    at[static_cast<Eigen::Index>(k)] =
+        std::log(std::clamp(values[free_[k]], std::max(u.lower, 1e-6 * u.scale), u.upper));
+  }
+  return at;
+}
+
+FormFit SlipModel::At(const std::vector<std::pair<std::string, double>>& values) const {
+  FormFit fit;
+  fit.ok = true;
+  fit.at = Logarithms(values);
+  fit.form = Plain();
+  return Judge(fit);
 }
 
 Eigen::VectorXd SlipModel::AllOf(const Eigen::VectorXd& at) const {
@@ -242,21 +250,25 @@ std::vector<Eigen::MatrixXd> SlipModel::Simulate(const std::vector<Eigen::Vector
 /// What the channels show, before factor and constant: at the record's samples that are reached.
 Eigen::MatrixXd SlipModel::Predict(const Eigen::MatrixXd& simulated, const RecordForm& form) const {
   const std::vector<double>& t = experiment_.record.t;
-  Eigen::MatrixXd all(static_cast<Eigen::Index>(t.size()), simulated.cols());
-  if (experiment_.quasi_static()) {
-    all = simulated;
-  } else {
+  const auto at_record = [&](double delay) -> Eigen::MatrixXd {
+    if (experiment_.quasi_static()) return simulated;
+    Eigen::MatrixXd all(static_cast<Eigen::Index>(t.size()), simulated.cols());
     const double interval = grid_[1] - grid_[0];
     Eigen::RowVectorXd row(simulated.cols());
     for (std::size_t i = 0; i < t.size(); ++i) {
-      const double since = (t[i] - form.delay - grid_.front()) / (1 + form.rate);
+      const double since = (t[i] - delay - grid_.front()) / (1 + form.rate);
       Interpolate(simulated, since / interval, row);
       all.row(static_cast<Eigen::Index>(i)) = row;
     }
-  }
+    return all;
+  };
+  const Eigen::MatrixXd all = at_record(form.delayed < 0 ? form.delay : 0);
   Eigen::MatrixXd shown(all.rows(), static_cast<Eigen::Index>(form.channels.size()));
   for (std::size_t c = 0; c < form.channels.size(); ++c)
     shown.col(static_cast<Eigen::Index>(c)) = all.col(form.channels[c].shows);
+  if (form.delayed >= 0)
+    shown.col(form.delayed) =
+        at_record(form.delay).col(form.channels[static_cast<std::size_t>(form.delayed)].shows);
   return shown;
 }
 
@@ -265,6 +277,14 @@ std::optional<double> SlipModel::ValueOf(const std::string& name, const FormFit&
     if (unknowns_->all()[static_cast<std::size_t>(free_[k])].name == name)
       return std::exp(fit.at[static_cast<Eigen::Index>(k)]);
   return std::nullopt;
+}
+
+std::vector<std::pair<std::string, double>> SlipModel::ValuesOf(const FormFit& fit) const {
+  std::vector<std::pair<std::string, double>> values;
+  for (std::size_t k = 0; k < free_.size(); ++k)
+    values.push_back({unknowns_->all()[static_cast<std::size_t>(free_[k])].name,
+                      std::exp(fit.at[static_cast<Eigen::Index>(k)])});
+  return values;
 }
 
 /// What the set says of the noise may be in SI units where the channel is in others.
@@ -310,10 +330,10 @@ FormFit SlipModel::Measure(const Eigen::VectorXd& at, const Eigen::MatrixXd& sim
 }
 
 /// As long a part from a late beginning on: before it there is nothing to be seen.
-SlipModel::Part SlipModel::Later(Part part, double delay) const {
-  if (!(delay > 0)) return part;
+SlipModel::Part SlipModel::Later(Part part, const RecordForm& form) const {
+  if (!(form.delay > 0) || form.delayed >= 0) return part;
   const std::vector<double>& t = experiment_.record.t;
-  const double until = t[static_cast<std::size_t>(part.rows - 1)] + delay;
+  const double until = t[static_cast<std::size_t>(part.rows - 1)] + form.delay;
   part.rows = std::min<Eigen::Index>(static_cast<Eigen::Index>(t.size()),
                                      std::upper_bound(t.begin(), t.end(), until) - t.begin());
   return part;
@@ -325,14 +345,18 @@ FormFit SlipModel::Look(const RecordForm& form) const {
     const double step =
         (period_ > 0 ? period_ : experiment_.record.t.back() - experiment_.record.t.front()) /
         kDelaysByPeriod;
-    for (double delay = earliest_; delay < latest_; delay += step) delays.push_back(delay);
+    // One sensor beside the others is late by less than a swing.
+    const double most = form.delayed < 0 ? latest_ : std::min(latest_, kDelaysByPeriod * step);
+    for (double delay = std::max(earliest_, form.delayed < 0 ? earliest_ : -most); delay < most;
+         delay += step)
+      delays.push_back(delay);
   }
   std::vector<FormFit> found;
   for (std::size_t p = 0; p < points_.size(); ++p)
     for (const double delay : delays) {
       RecordForm moved = form;
       moved.delay = delay;
-      FormFit fit = Measure(points_[p], looked_[p], moved, Later(first_, delay));
+      FormFit fit = Measure(points_[p], looked_[p], moved, Later(first_, moved));
       if (fit.ok) found.push_back(std::move(fit));
     }
   std::sort(found.begin(), found.end(),
@@ -362,7 +386,7 @@ FormFit SlipModel::Judge(const FormFit& fit) const {
 
 /// Gauss and Newton's method, damped, with factors and constants projected out.
 FormFit SlipModel::Descend(const FormFit& from, const Part& without_delay, int iterations) const {
-  const Part part = Later(without_delay, from.form.delay);
+  const Part part = Later(without_delay, from.form);
   const auto d = static_cast<Eigen::Index>(free_.size());
   const bool delay = from.form.free_delay, rate = from.form.free_rate;
   // Of the clock, by which the record's end is off by a sample.

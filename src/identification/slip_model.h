@@ -28,6 +28,7 @@ struct RecordForm {
   std::vector<ChannelForm> channels;
   bool free_delay = false;
   double delay = 0;  ///< [s] by which the record is late
+  int delayed = -1;  ///< the only channel that is; -1: all are
   bool free_rate = false;
   double rate = 0;  ///< by which its clock runs fast from the start on, relative
 };
@@ -46,11 +47,12 @@ struct FormFit {
 class SlipModel {
  public:
   /// `level`: of the channels' noise. `points`: values of parameters by name to begin from besides
-  /// the set's. `stop`, asked in any thread, ends simulations, which have failed then.
+  /// the set's; `near`: from nowhere else. `stop`, asked in any thread, ends simulations, which
+  /// have failed then.
   SlipModel(const MeasurementSet& set, int experiment, const Eigen::VectorXd& level,
             const Eigen::MatrixXd& usable,
             const std::vector<std::vector<std::pair<std::string, double>>>& points,
-            const std::function<bool()>& stop);
+            const std::function<bool()>& stop, bool near = false);
   ~SlipModel();
 
   bool ok() const { return ok_; }
@@ -64,9 +66,13 @@ class SlipModel {
   bool Refine(const FormFit& fit) const;
   /// Of the cable's parameters that are fitted, the value in a fit; nothing where it is not.
   std::optional<double> ValueOf(const std::string& name, const FormFit& fit) const;
+  /// All of them.
+  std::vector<std::pair<std::string, double>> ValuesOf(const FormFit& fit) const;
 
   /// The record as it is.
   RecordForm Plain() const;
+  /// The record as it is, at these parameters; others stay at the set's.
+  FormFit At(const std::vector<std::pair<std::string, double>>& values) const;
   /// At the best of the points, over the first part of the record.
   FormFit Look(const RecordForm& form) const;
   /// Fitted from there to a longer part (`whole`: to all of the record).
@@ -81,7 +87,8 @@ class SlipModel {
     double until = 0;  ///< of the record [s]
     Eigen::Index rows = 0;
   };
-  Part Later(Part part, double delay) const;
+  Part Later(Part part, const RecordForm& form) const;
+  Eigen::VectorXd Logarithms(const std::vector<std::pair<std::string, double>>& named) const;
   std::vector<Eigen::MatrixXd> Simulate(const std::vector<Eigen::VectorXd>& at, double until) const;
   Eigen::MatrixXd Predict(const Eigen::MatrixXd& simulated, const RecordForm& form) const;
   FormFit Measure(const Eigen::VectorXd& at, const Eigen::MatrixXd& simulated, RecordForm form,

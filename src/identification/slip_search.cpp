@@ -26,9 +26,19 @@ constexpr double kLargestGain = 20;
 constexpr std::size_t kMostForms = 12, kMostWhole = 6;
 // Of what is left, a form must leave less than this part to be simulated more finely; and where
 // something was found, no more of what acts on the cable is tried after so long [s].
-constexpr double kPromises = 0.1, kEnoughTime = 10;
+constexpr double kPromises = 0.1, kEnoughTime = 30;
 // Complexities: of one slip, of more than two, and of so many that they explain anything.
 constexpr double kSimple = 1.5, kSeveral = 2.8, kTooComplex = 6;
+// Of a start that is elsewhere, and of a factor that is to be found, beside a turned sign or a
+// unit.
+constexpr double kOfStart = 1.1, kOfGain = 1.2;
+// A factor is looked for in so many steps of a grid, and then until it is known so well, relative.
+constexpr int kFactors = 10;
+constexpr double kFactorFound = 3e-3;
+// A sum of squares of a unit larger by more than this is no chance (99.9 %) beside a free factor's.
+constexpr double kChance = 10.8;
+// Explanations that are told beside the one that is chosen.
+constexpr std::size_t kMostOthers = 3;
 // Of what is left of a record without a slip, what is little.
 constexpr double kLittle = 0.01;
 // Of the noise, squared: nothing is left but noise.
@@ -44,6 +54,10 @@ double Complexity(const ChannelForm& form, bool other_column, bool of_unit) {
 }
 
 }  // namespace
+
+bool IsStiffness(const std::string& name) {
+  return name == "EI" || name == "EI1" || name == "EI2" || name == "GJ";
+}
 
 Eigen::VectorXd SlipSearch::Levels(const ExperimentFit& fit) const {
   Eigen::VectorXd level(static_cast<Eigen::Index>(fit.channels.size()));
@@ -108,6 +122,11 @@ std::vector<RecordForm> SlipSearch::Forms(const std::vector<bool>& suspects) con
     add([&](RecordForm* form) { form->free_rate = true; });
   }
   for (std::size_t c = 0; c < channels.size(); ++c) {
+    if (model_.LongestDelay() > 0 && channels.size() > 1 && suspects[c])
+      add([&](RecordForm* form) {
+        form->free_delay = true;
+        form->delayed = static_cast<int>(c);
+      });
     for (int axis = 0; axis < 3; ++axis) {
       const int column = model_.ColumnOf(static_cast<int>(c), axis);
       if (column < 0 || axis == channels[c].axis || !suspects[c]) continue;
@@ -210,6 +229,8 @@ FormFit SlipSearch::Simplest(const FormFit& fit) const {
 double SlipSearch::ComplexityOf(const RecordForm& form) const {
   const RecordForm plain = model_.Plain();
   double sum = (form.free_delay ? 1.0 : 0.0) + (form.free_rate ? 1.0 : 0.0);
+  // A swing that fades fits as well later as with another scale.
+  if (form.free_delay && form.delay < 0) sum = kOfStart;
   int elsewhere = 0;
   for (std::size_t c = 0; c < form.channels.size(); ++c) {
     ChannelForm one = form.channels[c];
@@ -299,7 +320,7 @@ std::vector<Found> SlipSearch::OfChannels(const FormFit& looked, const FormFit& 
     whole = Simplest(whole);
     const double complexity = ComplexityOf(whole.form) + FarFromSet(model_, whole);
     if (Explains(whole, least) && ComplexityOf(whole.form) > 0 && complexity < kTooComplex)
-      found.push_back({whole, complexity, nullptr});
+      found.push_back({whole, complexity, nullptr, 1, model_.ValuesOf(whole)});
   }
   return found;
 }
@@ -317,22 +338,28 @@ FormFit SlipSearch::WholeOf(const SlipModel& model, const FormFit& part, double 
 /// ten beyond two.
 double SlipSearch::FarFromSet(const SlipModel& model, const FormFit& fit) const {
   double farthest = 0;
-  for (const char* name : {"EI", "EI1", "EI2", "GJ"}) {
-    const std::optional<double> value = model.ValueOf(name, fit);
+  for (const auto& [name, value] : model.ValuesOf(fit)) {
+    if (!IsStiffness(name)) continue;
     const std::optional<double> given = GetParameter(name, SpecimenKeys(set_, experiment_));
-    if (value && given && *value > 0 && *given > 0)
-      farthest = std::max(farthest, std::abs(std::log(*value / *given)));
+    if (given && *given > 0) farthest = std::max(farthest, std::abs(std::log(value / *given)));
   }
   return 0.5 * std::max(0.0, farthest - std::log(2.0)) / std::log(10.0);
 }
 
-std::optional<Found> SlipSearch::OfInput(const InputSlip& input, double least) const {
-  const SlipModel model(input.set, index_, level_, usable_, points_, stop_);
+/// Nothing where it explains little, or already in the first part leaves more than the record as it
+/// is, `looked`.
+std::optional<Found> SlipSearch::OfInput(const InputSlip& input, double factor,
+                                         const FormFit& looked, double least) const {
+  const MeasurementSet set = input.Mended(set_, factor);
+  const SlipModel model(set, index_, level_, usable_, points_, stop_);
   if (!model.ok()) return std::nullopt;
-  const FormFit whole = WholeOf(model, model.Fit(model.Look(model.Plain()), false), least);
+  const FormFit begun = model.Look(model.Plain());
+  if (looked.ok && begun.ok && begun.cost > looked.cost + kFollowed) return std::nullopt;
+  const FormFit whole = WholeOf(model, model.Fit(begun, false), least);
   if (!Explains(whole, least)) return std::nullopt;
   // What is wrong with a start is as well wrong with a channel.
-  Found found = {whole, input.kind == "start" ? 1.1 : 1.0, &input};
+  const double complexity = input.kind == "start" ? kOfStart : input.free_factor() ? kOfGain : 1.0;
+  Found found = {whole, complexity, &input, factor, model.ValuesOf(whole)};
   const std::optional<double> value = model.ValueOf(input.named, whole);
   if (value)
     found.fit.named = *value;
@@ -341,44 +368,129 @@ std::optional<Found> SlipSearch::OfInput(const InputSlip& input, double least) c
   return found;
 }
 
-std::vector<Found> SlipSearch::OfInputs(double least, const std::vector<Found>& beside) const {
+/// With which the record is left least, all parameters at their best: the least of a grid, and the
+/// golden section between its neighbours.
+double SlipSearch::BestFactor(const InputSlip& input, const FormFit& plain) const {
+  Points points = points_;
+  points.push_back(model_.ValuesOf(plain));
+  const auto cost = [&](double logarithm) {
+    const MeasurementSet set = input.Mended(set_, std::exp(logarithm));
+    const SlipModel model(set, index_, level_, usable_, points, stop_, true);
+    if (!model.ok()) return std::numeric_limits<double>::infinity();
+    const FormFit fit = model.Judge(model.Fit(model.Look(model.Plain()), true));
+    return fit.ok ? fit.cost : std::numeric_limits<double>::infinity();
+  };
+  const double low = std::log(input.least), step = (std::log(input.most) - low) / kFactors;
+  double best = low, least = std::numeric_limits<double>::infinity();
+  for (int k = 0; k <= kFactors && !(stop_ && stop_()); ++k)
+    if (const double now = cost(low + k * step); now < least) {
+      least = now;
+      best = low + k * step;
+    }
+  const double golden = 0.5 * (std::sqrt(5.0) - 1);
+  double a = best - step, b = best + step;
+  double inner[2] = {b - golden * (b - a), a + golden * (b - a)};
+  double costs[2] = {cost(inner[0]), cost(inner[1])};
+  while (b - a > kFactorFound && !(stop_ && stop_())) {
+    const int better = costs[0] < costs[1] ? 0 : 1;
+    (better == 0 ? b : a) = inner[1 - better];
+    inner[1 - better] = inner[better];
+    costs[1 - better] = costs[better];
+    inner[better] = better == 0 ? b - golden * (b - a) : a + golden * (b - a);
+    costs[better] = cost(inner[better]);
+  }
+  return std::exp(0.5 * (a + b));
+}
+
+std::vector<Found> SlipSearch::OfInputs(const FormFit& looked, const FormFit& plain, double least,
+                                        const std::vector<Found>& beside) const {
   std::vector<Found> found;
+  const auto any = [&](const auto& is) {
+    return std::any_of(found.begin(), found.end(), is) ||
+           std::any_of(beside.begin(), beside.end(), is);
+  };
   for (const InputSlip& input : inputs_) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
     if (stop_ && stop_()) break;
     // Units of one thing are all tried: only together they tell which it is.
-    const bool begun = !found.empty() && found.back().input->kind == input.kind;
-    const auto is_simple = [](const Found& one) { return one.complexity < kSimple; };
+    const bool begun = std::any_of(found.begin(), found.end(),
+                                   [&](const Found& one) { return one.input->kind == input.kind; });
     if (taken.count() > kEnoughTime && !begun &&
-        (std::any_of(found.begin(), found.end(), is_simple) ||
-         std::any_of(beside.begin(), beside.end(), is_simple)))
+        any([](const Found& one) { return one.complexity < kSimple; }))
       break;
-    if (std::optional<Found> one = OfInput(input, least)) found.push_back(std::move(*one));
+    // No factor is looked for where something simpler leaves nothing but noise, unless that is a
+    // unit, beside which the factor may be another one.
+    const auto is_unit_of = [&](const Found& one) {
+      return one.input && one.input->kind == input.kind && one.factor > input.least &&
+             one.factor < input.most && one.factor != 1;
+    };
+    if (input.free_factor() && (!plain.ok || any([&](const Found& one) {
+          return one.complexity < kOfGain && !(one.fit.left.maxCoeff() > kNoise) &&
+                 !is_unit_of(one);
+        })))
+      continue;
+    const double factor = input.free_factor() ? BestFactor(input, plain) : input.factor;
+    if (input.free_factor() && std::abs(std::log(factor)) < kNearUnit) continue;
+    std::optional<Found> one = OfInput(input, factor, looked, least);
+    if (!one) continue;
+    if (input.free_factor()) {
+      const double samples = usable_.sum();
+      const auto is_refuted = [&](const Found& unit) {
+        return is_unit_of(unit) && std::abs(std::log(unit.factor / factor)) > kNearUnit &&
+               samples * (unit.fit.mean() / one->fit.mean() - 1) > kChance;
+      };
+      found.erase(std::remove_if(found.begin(), found.end(), is_refuted), found.end());
+    }
+    found.push_back(std::move(*one));
   }
   return found;
+}
+
+/// Whether the record fits as it is beside another one that slips, with parameters nearer to what
+/// the other shows than those with the same slip in this one.
+bool SlipSearch::IsHealthy(const FormFit& plain, const std::optional<Found>& same) const {
+  if (!plain.ok || plain.left.maxCoeff() > kFarAbove) return false;
+  const FormFit as_the_other = model_.At(known_->values);
+  if (as_the_other.ok && !(as_the_other.left.maxCoeff() > kFarAbove)) return true;
+  if (!same) return true;
+  const auto distance = [&](const Values& values) {
+    double sum = 0;
+    for (const auto& [name, value] : values)
+      for (const auto& [other, known] : known_->values)
+        if (name == other && IsStiffness(name)) sum += std::abs(std::log(value / known));
+    return sum;
+  };
+  return distance(model_.ValuesOf(plain)) <= distance(same->values);
 }
 
 std::vector<ChannelSlip> SlipSearch::Find() {
   if (!(before_.maxCoeff() > kFarAbove)) return {};
   double least = before_.mean();
   std::vector<Found> found;
-  // What another record has is likely to be in this one, too.
-  for (const InputSlip& input : inputs_) {
-    if (input.text != known_ || known_.empty()) continue;
-    const std::optional<Found> same = OfInput(input, least);
-    if (same && !(same->fit.left.maxCoeff() > kFarAbove)) return Words(*same, nullptr);
-  }
+  FormFit looked, plain;
   if (model_.ok()) {
     // What the record leaves as it is, alone, at its best.
-    const FormFit looked = model_.Look(model_.Plain());
-    FormFit plain = model_.Judge(model_.Fit(model_.Fit(looked, false), true));
+    looked = model_.Look(model_.Plain());
+    plain = model_.Judge(model_.Fit(model_.Fit(looked, false), true));
     if (plain.ok && model_.Refine(plain)) plain = model_.Judge(model_.Fit(plain, true));
-    if (plain.ok && !(plain.left.maxCoeff() > kFarAbove)) return {};
-    if (plain.ok) least = std::min(least, plain.mean());
+  }
+  // What another record has may be in this one, too.
+  for (const InputSlip& input : inputs_) {
+    if (!known_ || input.text != known_->text) continue;
+    const std::optional<Found> same = OfInput(input, known_->factor, {}, least);
+    if (IsHealthy(plain, same)) return {};
+    if (same && !(same->fit.left.maxCoeff() > kFarAbove)) return Words(*same, {});
+  }
+  if (plain.ok && !(plain.left.maxCoeff() > kFarAbove)) {
+    alone_ = model_.ValuesOf(plain);
+    return {};
+  }
+  if (plain.ok) least = std::min(least, plain.mean());
+  if (model_.ok()) {
     if (!(least * static_cast<double>(before_.size()) > kFarAbove)) return {};
     found = OfChannels(looked, plain, least);
   }
-  const std::vector<Found> of_inputs = OfInputs(least, found);
+  const std::vector<Found> of_inputs = OfInputs(looked, plain, least, found);
   found.insert(found.end(), of_inputs.begin(), of_inputs.end());
   if (found.empty() || (stop_ && stop_())) return {};
   const auto best =
@@ -394,14 +506,19 @@ std::vector<ChannelSlip> SlipSearch::Find() {
   for (const Found& one : found)
     if (is_alike(one) && (!chosen || goes_before(one, *chosen))) chosen = &one;
   // What is as simple and fits as well is told beside it: a turned force is a turned channel.
-  const Found* other = nullptr;
+  std::vector<const Found*> others;
   for (const Found& one : found)
     if (is_alike(one) && (one.input || chosen->input) && one.input != chosen->input &&
-        one.complexity <= chosen->complexity && (!other || goes_before(one, *other)))
-      other = &one;
-  if (chosen->input) input_ = chosen->input->text;
-  if (chosen->input && chosen->input->of_set) mended_ = &chosen->input->set;
-  return Words(*chosen, other);
+        one.complexity <= chosen->complexity)
+      others.push_back(&one);
+  std::sort(others.begin(), others.end(),
+            [&](const Found* a, const Found* b) { return goes_before(*a, *b); });
+  others.resize(std::min(others.size(), kMostOthers));
+  if (chosen->input) {
+    input_ = KnownSlip{chosen->input->text, chosen->factor, chosen->values};
+    if (chosen->input->of_set) mended_ = chosen->input->Mended(set_, chosen->factor);
+  }
+  return Words(*chosen, others);
 }
 
 }  // namespace cosserat_cable

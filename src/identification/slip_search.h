@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -27,19 +28,34 @@ inline constexpr double kFaithful = 25;
 /// a residual beyond this part is looked at then.
 inline constexpr double kUnknownLevel = 0.005, kUnknownMisfit = 0.05;
 
-using Points = std::vector<std::vector<std::pair<std::string, double>>>;
+/// Of the cable's parameters, by name.
+using Values = std::vector<std::pair<std::string, double>>;
+using Points = std::vector<Values>;
+
+bool IsStiffness(const std::string& parameter);
 
 /// What was found for a record.
 struct Found {
   FormFit fit;
   double complexity = 0;
   const InputSlip* input = nullptr;
+  double factor = 1;  ///< of the input
+  Values values;
+};
+
+/// What was found beside the channels in another record, and the parameters with it mended.
+struct KnownSlip {
+  std::string text;
+  double factor = 1;
+  Values values;
 };
 
 class SlipSearch {
  public:
+  /// `also_parameters`: also stiffnesses that the set says to be known.
   SlipSearch(const MeasurementSet& set, int experiment, const ExperimentFit& fit,
-             const Points& points, const std::string& known, const std::function<bool()>& stop)
+             const Points& points, const std::optional<KnownSlip>& known,
+             const std::function<bool()>& stop, bool also_parameters = true)
       : set_(set),
         known_(known),
         index_(experiment),
@@ -51,13 +67,18 @@ class SlipSearch {
         model_(set, experiment, level_, usable_, points, stop),
         inputs_(InputSlips(set, static_cast<std::size_t>(experiment))) {
     before_ = Left(fit);
+    if (also_parameters) return;
+    const auto is_parameter = [](const InputSlip& input) { return !input.named.empty(); };
+    inputs_.erase(std::remove_if(inputs_.begin(), inputs_.end(), is_parameter), inputs_.end());
   }
 
   std::vector<ChannelSlip> Find();
-  /// The set with what was found mended where that holds for all records; null where nothing was.
-  const MeasurementSet* mended() const { return mended_; }
-  /// The words for it, where it is of what acts on the cable.
-  const std::string& input() const { return input_; }
+  /// The set with what was found mended where that holds for all records; none where nothing was.
+  const std::optional<MeasurementSet>& mended() const { return mended_; }
+  /// The parameters with which the record fits as it is, alone; none where it does not.
+  const std::optional<Values>& alone() const { return alone_; }
+  /// What was found, where it is beside the channels.
+  const std::optional<KnownSlip>& input() const { return input_; }
 
  private:
   Eigen::VectorXd Levels(const ExperimentFit& fit) const;
@@ -70,17 +91,21 @@ class SlipSearch {
   bool Explains(const FormFit& fit, double least, bool simplest = true) const;
   void SnapToUnits(RecordForm* form) const;
   std::vector<Found> OfChannels(const FormFit& looked, const FormFit& plain, double least) const;
-  std::vector<Found> OfInputs(double least, const std::vector<Found>& beside) const;
-  std::optional<Found> OfInput(const InputSlip& input, double least) const;
+  std::vector<Found> OfInputs(const FormFit& looked, const FormFit& plain, double least,
+                              const std::vector<Found>& beside) const;
+  std::optional<Found> OfInput(const InputSlip& input, double factor, const FormFit& looked,
+                               double least) const;
+  double BestFactor(const InputSlip& input, const FormFit& plain) const;
+  bool IsHealthy(const FormFit& plain, const std::optional<Found>& same) const;
   FormFit WholeOf(const SlipModel& model, const FormFit& part, double least) const;
   double FarFromSet(const SlipModel& model, const FormFit& fit) const;
-  std::vector<ChannelSlip> Words(const Found& found, const Found* other) const;
+  std::vector<ChannelSlip> Words(const Found& found, const std::vector<const Found*>& others) const;
   ChannelSlip OfChannel(std::size_t channel, const FormFit& fit) const;
   ChannelSlip OfClock(const FormFit& fit) const;
-  ChannelSlip OfInput(const InputSlip& input, const FormFit& fit) const;
+  ChannelSlip OfInput(const Found& found) const;
 
   const MeasurementSet& set_;
-  std::string known_;  // the words for what was found in another record
+  std::optional<KnownSlip> known_;
   int index_;
   const Experiment& experiment_;
   Eigen::MatrixXd usable_;
@@ -90,8 +115,9 @@ class SlipSearch {
   SlipModel model_;
   std::vector<InputSlip> inputs_;
   Eigen::VectorXd before_;  // by channel, mean square left over the level's
-  const MeasurementSet* mended_ = nullptr;
-  std::string input_;
+  std::optional<MeasurementSet> mended_;
+  std::optional<KnownSlip> input_;
+  std::optional<Values> alone_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

@@ -80,6 +80,12 @@ ChannelSlip SlipSearch::OfClock(const FormFit& fit) const {
   }
   slip.delay = fit.form.delay;
   slip.kind = "delay";
+  if (fit.form.delayed >= 0) {
+    slip.column = experiment_.channels[static_cast<std::size_t>(fit.form.delayed)].column;
+    slip.text = slip.column + " fits with times that are " + Seconds(std::abs(slip.delay)) +
+                (slip.delay > 0 ? " late" : " early") + " beside the other channels";
+    return slip;
+  }
   const bool driven = experiment_.a.motion || experiment_.b.motion;
   if (driven) {
     slip.text = "fits with times that are " + Seconds(std::abs(slip.delay)) +
@@ -96,25 +102,29 @@ ChannelSlip SlipSearch::OfClock(const FormFit& fit) const {
   return slip;
 }
 
-ChannelSlip SlipSearch::OfInput(const InputSlip& input, const FormFit& fit) const {
+ChannelSlip SlipSearch::OfInput(const Found& found) const {
+  const InputSlip& input = *found.input;
   ChannelSlip slip;
   slip.kind = input.kind;
-  slip.factor = input.factor;
-  slip.text = "fits " + input.text;
+  slip.factor = found.factor;
+  slip.text = "fits " +
+              (input.free_factor() ? "with " + FormatRounded(found.factor, 3) + " " : "") +
+              input.text;
   if (!input.named.empty()) {
     const double given = GetParameter(input.named, SpecimenKeys(set_, experiment_)).value_or(0);
-    slip.factor = given > 0 ? fit.named / given : 1.0;
-    slip.text = "fits with [" + input.named + "] = " + FormatRounded(fit.named) +
+    slip.factor = given > 0 ? found.fit.named / given : 1.0;
+    slip.text = "fits with [" + input.named + "] = " + FormatRounded(found.fit.named) +
                 " instead of the set's " + FormatRounded(given) + ": name it in `uncertain`?";
   }
   return slip;
 }
 
-std::vector<ChannelSlip> SlipSearch::Words(const Found& found, const Found* other) const {
+std::vector<ChannelSlip> SlipSearch::Words(const Found& found,
+                                           const std::vector<const Found*>& others) const {
   std::vector<ChannelSlip> slips;
   const FormFit& fit = found.fit;
   if (found.input) {
-    slips.push_back(OfInput(*found.input, fit));
+    slips.push_back(OfInput(found));
   } else {
     if (fit.form.free_delay || fit.form.free_rate) slips.push_back(OfClock(fit));
     for (std::size_t c = 0; c < experiment_.channels.size(); ++c) {
@@ -122,12 +132,15 @@ std::vector<ChannelSlip> SlipSearch::Words(const Found& found, const Found* othe
       if (!slip.kind.empty()) slips.push_back(slip);
     }
   }
-  if (other && !slips.empty()) {
-    const std::vector<ChannelSlip> as_well = Words(*other, nullptr);
-    if (!as_well.empty()) slips.front().text += " (as well: " + as_well.front().text + ")";
-  }
+  std::string as_well;
+  for (const Found* other : others)
+    if (const std::vector<ChannelSlip> words = Words(*other, {}); !words.empty())
+      as_well += (as_well.empty() ? "" : "; ") + words.front().text;
+  if (!as_well.empty() && !slips.empty()) slips.front().text += " (as well: " + as_well + ")";
   for (ChannelSlip& slip : slips) {
     slip.experiment = experiment_.name;
+    slip.values = found.values;
+    slip.of_set = found.input && found.input->of_set;
     double before = before_.mean(), after = fit.mean();
     for (std::size_t c = 0; c < experiment_.channels.size(); ++c)
       if (experiment_.channels[c].column == slip.column) {

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/measurement_set.h"
@@ -65,15 +69,20 @@ class ExperimentLooks {
 
   void Check() {
     CheckSampling();
+    const std::string unit = UnitOfMotion();
+    if (!unit.empty())
+      problems_->Add(experiment_.a.mark.file, experiment_.a.mark.line, "motion",
+                     experiment_.a.motion->file + ": clamp a moves where the cable of " + length_ +
+                         " does not reach from what the record shows: is it in " + unit + "?");
     for (std::size_t k = 0; k < experiment_.channels.size(); ++k) {
       const Channel& channel = experiment_.channels[k];
       const Eigen::VectorXd values = experiment_.record.values.col(static_cast<Eigen::Index>(k));
       if (values.size() < 2) continue;
       CheckMovement(channel, values);
-      if (channel.quantity == Quantity::kPosition) CheckReach(channel, values);
+      if (channel.quantity == Quantity::kPosition && unit.empty()) CheckReach(channel, values);
       if (channel.quantity == Quantity::kAngle) CheckAngle(channel, values);
     }
-    CheckClampDistance();
+    if (unit.empty()) CheckClampDistance();
     CheckStart();
     CheckMasses();
   }
@@ -170,14 +179,73 @@ class ExperimentLooks {
     return channel.in_frame_a ? 0 : PositionAt(experiment_.a, t)[channel.axis];
   }
 
-  /// Whether nearly all samples are within the cable's reach, of times that are late by so much
-  /// [s].
-  bool Reaches(const Channel& channel, const Eigen::VectorXd& values, double factor,
-               double late = 0) const {
+  /// Whether nearly all samples are within `reach` [m] of where a clamp is at them.
+  template <typename ClampAt>
+  static bool ReachesFrom(const ClampAt& clamp_at, const Eigen::VectorXd& values, double factor,
+                          double reach) {
     Eigen::Index beyond = 0;
     for (Eigen::Index i = 0; i < values.size(); ++i)
-      if (std::abs(factor * values[i] - Origin(channel, i, late)) > reach_) ++beyond;
+      if (std::abs(factor * values[i] - clamp_at(i)) > reach) ++beyond;
     return static_cast<double>(beyond) <= kOutliers * static_cast<double>(values.size());
+  }
+
+  /// The same, of times that are late by so much [s].
+  bool Reaches(const Channel& channel, const Eigen::VectorXd& values, double factor,
+               double late = 0) const {
+    return ReachesFrom([&](Eigen::Index i) { return Origin(channel, i, late); }, values, factor,
+                       reach_);
+  }
+
+  /// The unit of clamp a's motion, whole or from its first position, that brings all channels
+  /// within the cable's reach where some are not that no slip of their own brings there; empty
+  /// where none does.
+  std::string UnitOfMotion() const {
+    const EndCondition& a = experiment_.a;
+    if (!a.motion || a.motion->poses.empty() || !HoldsPlace(a)) return "";
+    std::vector<const Channel*> placed;
+    bool beyond = false;
+    for (const Channel& channel : experiment_.channels) {
+      if (channel.quantity != Quantity::kPosition || channel.in_frame_a || channel.unknown_offset)
+        continue;
+      placed.push_back(&channel);
+      const Eigen::VectorXd values = ValuesOf(channel);
+      if (Reaches(channel, values, 1)) continue;
+      if (Reaches(channel, values, -1) || !ExchangeOfReach(channel).empty()) return "";
+      beyond = true;
+    }
+    if (!beyond) return "";
+    struct Unit {
+      double factor;
+      const char* name;
+    };
+    // Of several that do, first the one with which the cable follows the clamp best.
+    std::map<std::string, double> found;
+    for (const Unit& unit : {Unit{1e-3, "mm"}, Unit{1e-2, "cm"}, Unit{0.0254, "inches"}})
+      for (const Eigen::Vector3d& from :
+           {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(a.motion->poses.front().p)}) {
+        double apart = 0;
+        bool reaches = true;
+        for (const Channel* channel : placed) {
+          const Eigen::VectorXd values = ValuesOf(*channel);
+          const double first = from[channel->axis];
+          Eigen::VectorXd clamp(values.size());
+          for (Eigen::Index i = 0; i < values.size(); ++i)
+            clamp[i] = first + unit.factor * (Origin(*channel, i) - first);
+          reaches = reaches && ReachesFrom([&](Eigen::Index i) { return clamp[i]; }, values, 1,
+                                           kReach * channel->s);
+          const Eigen::VectorXd distance = values - clamp;
+          apart += (distance.array() - distance.mean()).square().mean();
+        }
+        if (!reaches) continue;
+        const auto known = found.emplace(unit.name, apart).first;
+        known->second = std::min(known->second, apart);
+      }
+    std::vector<std::pair<double, std::string>> order;
+    for (const auto& [name, apart] : found) order.push_back({apart, name});
+    std::sort(order.begin(), order.end());
+    std::string names;
+    for (const auto& [apart, name] : order) names += (names.empty() ? "" : ", or ") + name;
+    return names;
   }
 
   /// By how much the record's times would have to be late or early [s]: the least that will do.

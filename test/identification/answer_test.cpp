@@ -53,5 +53,37 @@ TEST(AnswerTest, TheIdentifiedCableHasTheIntervalsOfTheTableAndMarksExtensions) 
   EXPECT_TRUE(YAML::Load(text)["cable"]["extensions"]["maxwell"][0]["EI"]);
 }
 
+TEST(AnswerTest, ANumberThatASlipMakesIsMarkedWhereverItStands) {
+  Problems problems;
+  MapReader map(YamlValue::Root("set",
+                                YAML::Load("length: 0.25\ndiameter: 0.006\nmass_per_length: 0.05\n"
+                                           "EI: 0.003\nGJ: 0.0019\neta_EI: 1.0e-6\n"
+                                           "eta_GJ: 1.0e-6\n"),
+                                &problems));
+  MeasurementSet set;
+  set.cable = ReadCableKeys(&map);
+  set.cable_mark = map.mark();
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  Estimation estimation;
+  estimation.cable = set.cable;
+  estimation.parameters = {Estimated("EI", 0.003, 0.0021, 0.0045),
+                           Estimated("GJ", 0.0019, 0.0018, 0.002)};
+  for (ParameterEstimate& one : estimation.parameters) one.unknown.kind = Unknown::Kind::kCable;
+  estimation.parameters[0].doubt = "pull fits with its load in grams; with that mended it is 3e-05";
+  estimation.correlation = Eigen::MatrixXd::Identity(2, 2);
+  const std::string text = IdentifiedCableText(set, estimation);
+  EXPECT_NE(text.find("0.0045; not to be trusted: pull fits with its load in grams"),
+            std::string::npos)
+      << text;
+  EXPECT_EQ(text.find("not to be trusted", text.find("GJ:")), std::string::npos) << text;
+  const nlohmann::json answer = AnswerJson(set, estimation);
+  EXPECT_EQ(answer["untrusted"].size(), 1u);
+  EXPECT_EQ(answer["untrusted"]["EI"], estimation.parameters[0].doubt);
+  const std::string table = AnswerTable(set, estimation);
+  const std::string of_EI =
+      table.substr(table.find("\nEI"), table.find("\nGJ") - table.find("\nEI"));
+  EXPECT_NE(of_EI.find("not to be trusted"), std::string::npos) << table;
+}
+
 }  // namespace
 }  // namespace cosserat_cable

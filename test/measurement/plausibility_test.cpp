@@ -156,6 +156,55 @@ TEST(Plausibility, ALateRecordOfAMovingClampIsNotInMillimetres) {
   EXPECT_NE(scaled.find("is it in mm?"), std::string::npos) << scaled;
 }
 
+/// A cable of 0.25 m on a clamp that swings by 0.1 m about a place 1 m from the origin, its end
+/// seen behind it; `change` is done to what the clamp's file says.
+std::string SaidOfASwingWith(const std::function<double(double x)>& change) {
+  MeasurementSet set;
+  set.cable.length.value = 0.25;
+  Experiment experiment;
+  experiment.name = "swing";
+  experiment.record.file = "swing.csv";
+  experiment.b.kind = EndCondition::Kind::kFree;
+  const auto place = [](double t, double late) { return 1 + 0.1 * std::sin(4 * (t - late)); };
+  ClampMotion motion;
+  motion.file = "clamp_a.csv";
+  for (int i = 0; i <= 300; ++i) {
+    motion.t.push_back(0.01 * i);
+    motion.poses.emplace_back();
+    motion.poses.back().p = {change(place(0.01 * i, 0)), 0, 0};
+  }
+  experiment.a.motion = motion;
+  Channel tip;
+  tip.column = "tip_x";
+  tip.s = 0.25;
+  experiment.channels = {tip};
+  experiment.record.values.resize(300, 1);
+  for (int i = 0; i < 300; ++i) {
+    experiment.record.t.push_back(0.01 * i);
+    experiment.record.values(i, 0) = place(0.01 * i, 0.05);
+  }
+  set.experiments = {experiment};
+  Problems problems, warnings;
+  CheckPlausibility(set, &problems, &warnings);
+  return problems.ToString();
+}
+
+TEST(Plausibility, TheUnitOfAMotionFileIsItsOwnAndNoChannels) {
+  EXPECT_EQ(SaidOfASwingWith([](double x) { return x; }), "");
+  struct Unit {
+    double factor;
+    const char* name;
+  };
+  for (const Unit& unit : {Unit{1e3, "mm"}, Unit{1e2, "cm"}, Unit{1 / 0.0254, "inches"}})
+    for (const double from : {0.0, 1.0}) {
+      const std::string said =
+          SaidOfASwingWith([&](double x) { return from + unit.factor * (x - from); });
+      EXPECT_NE(said.find("clamp_a.csv"), std::string::npos) << said;
+      EXPECT_NE(said.find(std::string("is it in ") + unit.name), std::string::npos) << said;
+      EXPECT_EQ(said.find("tip_x"), std::string::npos) << said;
+    }
+}
+
 TEST(Plausibility, ExchangedColumnsAreOffered) {
   SetFolder folder;
   WriteAll(&folder, std::string(kHead) + kRingdown);

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cosserat_cable/fit/information.h"
@@ -52,6 +53,7 @@ struct ParameterEstimate {
   double low = 0, high = 0;  ///< 95 %, from the profile where there is one
   double quantile = 0;       ///< standard deviations to the ends of the curvature's interval
   std::string reason;        ///< why it is not determined
+  std::string doubt;         ///< a slip that is suspected, with which it would be another one
   Profile profile;
 };
 
@@ -71,12 +73,12 @@ struct ChannelFit {
 /// otherwise than the set says. A suggestion: nothing is changed by it.
 struct ChannelSlip {
   std::string experiment;
-  std::string column;   ///< empty: the whole record
-  /// offset, sign, unit, gain, axis, swapped; of the whole record start, delay, clock, load, mass
-  /// or parameter
+  std::string column;  ///< empty: the whole record
+  /// offset, sign, unit, gain, axis, swapped, delay; of the whole record start, delay, clock, load,
+  /// mass, motion, gravity or parameter
   std::string kind;
   /// record = factor * truth + constant; of a clock, the record's times over the truth; of load,
-  /// mass and parameter, the truth over what the set gives
+  /// mass, motion and parameter, the truth over what the set gives
   double factor = 1;
   double constant = 0;  ///< [the channel's unit]
   double delay = 0;     ///< [s] by which the record's times are late
@@ -84,6 +86,9 @@ struct ChannelSlip {
   double before = 0;    ///< what is left, in times the noise
   double after = 0;     ///< with the slip mended
   std::string text;     ///< in words
+  bool of_set = false;  ///< it holds for all records of the set
+  /// The cable's parameters with the slip mended, from this record alone.
+  std::vector<std::pair<std::string, double>> values;
 };
 
 struct ExperimentFit {
