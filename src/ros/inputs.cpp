@@ -105,12 +105,17 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   LinkMotion links(inputs->vehicle, needed, link_options);
   std::uint64_t messages = 0;
   // Who says that gravity points elsewhere knows what is up.
-  UprightJudge upright(options.gravity_W == kGravityDown ? options.gravity_W
-                                                         : Eigen::Vector3d::Zero());
+  const UprightJudge nothing_seen(options.gravity_W == kGravityDown ? options.gravity_W
+                                                                    : Eigen::Vector3d::Zero());
+  UprightJudge upright = nothing_seen;
+  std::string world;
   std::int64_t looked = 0;
   const auto look = [&] {
     if (std::abs(links.last_stamp() - looked) < kLookInterval) return;
     looked = links.last_stamp();
+    // Before the first transform above it is known, the vehicle itself is the world.
+    if (links.world() != world) upright = nothing_seen;
+    world = links.world();
     if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
       upright.Add(links.last_stamp(), X_WR->q);
   };
