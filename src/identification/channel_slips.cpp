@@ -149,6 +149,7 @@ std::vector<ChannelSlip> SlipsBetween(const MeasurementSet& set, const Estimatio
       slip.text += ", where " + names + " is as " + set.experiments[other->experiment].name +
                    " has it: one of the two records slips";
       slip.values = other->values;
+      slip.of_record = true;  // which of the two it is nobody knows: neither is mended
       slips.push_back(slip);
     }
   }

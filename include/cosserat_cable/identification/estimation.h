@@ -80,14 +80,16 @@ struct ChannelSlip {
   /// record = factor * truth + constant; of a clock, the record's times over the truth; of load,
   /// mass, motion and parameter, the truth over what the set gives
   double factor = 1;
-  double constant = 0;    ///< [the channel's unit]
-  double delay = 0;       ///< [s] by which the record's times are late
-  std::string shows;      ///< the axis or column that it shows instead
-  double before = 0;      ///< what is left, in times the noise
-  double after = 0;       ///< with the slip mended
-  std::string text;       ///< in words
-  bool of_record = true;  ///< of what was recorded, else of what acts on the cable
-  bool of_set = false;    ///< it holds for all records of the set
+  double constant = 0;  ///< [the channel's unit]
+  double delay = 0;     ///< [s] by which the record's times are late
+  std::string shows;    ///< the axis or column that it shows instead
+  double before = 0;    ///< what is left, in times the noise
+  double after = 0;     ///< with the slip mended
+  std::string text;     ///< in words
+  /// Of what was recorded: only without the record is it out of the way. Else of what acts on the
+  /// cable.
+  bool of_record = true;
+  bool of_set = false;  ///< it holds for all records of the set
   /// The cable's parameters with the slip mended, from this record alone.
   std::vector<std::pair<std::string, double>> values;
 };
