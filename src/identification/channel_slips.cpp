@@ -149,6 +149,7 @@ std::vector<ChannelSlip> SlipsBetween(const MeasurementSet& set, const Estimatio
       slip.text += ", where " + names + " is as " + set.experiments[other->experiment].name +
                    " has it: one of the two records slips";
       slip.values = other->values;
+      slip.of_record = true;  // which of the two it is nobody knows: neither is mended
       slips.push_back(slip);
     }
   }
@@ -158,8 +159,7 @@ std::vector<ChannelSlip> SlipsBetween(const MeasurementSet& set, const Estimatio
 }  // namespace
 
 std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& fit,
-                                   const EstimationOptions& options,
-                                   std::optional<MeasurementSet>* mended) {
+                                   const EstimationOptions& options, MeasurementSet* mended) {
   std::vector<std::pair<double, std::size_t>> suspects;
   for (std::size_t e = 0; e < set.experiments.size(); ++e)
     if (const double worst = Suspicion(set.experiments[e], fit.experiments[e]); worst > 0)
@@ -180,6 +180,7 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
   EstimationOptions of_record = options;
   std::optional<KnownSlip> input;
+  MeasurementSet with_set_mended = set;
   std::vector<FitsAlone> alone;
   for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords) && !ended(); ++k) {
     const std::size_t e = suspects[k].second;
@@ -192,29 +193,37 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
       slips.insert(slips.end(), found.begin(), found.end());
       continue;
     }
-    const MeasurementSet now = mended->value_or(set);
-    SlipSearch search(now, static_cast<int>(e), fit.experiments[e], points, input, ended);
+    SlipSearch search(with_set_mended, static_cast<int>(e), fit.experiments[e], points, input,
+                      ended);
     const std::vector<ChannelSlip> found = search.Find();
     slips.insert(slips.end(), found.begin(), found.end());
     if (search.alone()) alone.push_back({e, *search.alone()});
-    if (search.mended()) *mended = *search.mended();
-    if (search.input()) input = search.input();
+    if (!search.input()) continue;
+    input = search.input();
+    input->Mend(mended);
+    if (input->input.of_set) input->Mend(&with_set_mended);
   }
   return slips.empty() ? SlipsBetween(set, fit, points, alone, ended) : slips;
 }
 
 void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
                 const EstimationOptions& options, Estimation* fit) {
-  const auto suspected = [&](std::size_t e, bool also_of_set) {
-    return !fit->experiments[e].left_out &&
-           std::any_of(fit->slips.begin(), fit->slips.end(), [&](const ChannelSlip& slip) {
-             return slip.of_set ? also_of_set : slip.experiment == mended.experiments[e].name;
-           });
+  const auto any_slip = [&](const auto& is) {
+    return std::any_of(fit->slips.begin(), fit->slips.end(), is);
+  };
+  const auto suspected = [&](std::size_t e) {
+    return !fit->experiments[e].left_out && any_slip([&](const ChannelSlip& slip) {
+      return slip.of_set || slip.experiment == mended.experiments[e].name;
+    });
   };
   MeasurementSet rest = mended;
   rest.experiments.clear();
-  for (std::size_t e = 0; e < mended.experiments.size(); ++e)
-    if (!suspected(e, false)) rest.experiments.push_back(mended.experiments[e]);
+  for (const Experiment& experiment : mended.experiments)
+    if (!any_slip([&](const ChannelSlip& slip) {
+          return slip.of_record && slip.experiment == experiment.name;
+        }))
+      rest.experiments.push_back(experiment);
+  const bool left_out = rest.experiments.size() < mended.experiments.size();
   EstimationOptions of_rest = Cheap(options);
   of_rest.time_limit = std::max(kLeastTime, fit->seconds);
   for (const ParameterEstimate& one : fit->parameters)
@@ -226,7 +235,7 @@ void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
     const int unknown = unknowns.Find(one.unknown.name);
     bool depends = false;
     for (std::size_t e = 0; e < mended.experiments.size(); ++e)
-      depends |= suspected(e, true) && unknowns.Concerns(unknown, static_cast<int>(e));
+      depends |= suspected(e) && unknowns.Concerns(unknown, static_cast<int>(e));
     if (!depends) continue;
     if (!others) {
       Problems unused;
@@ -239,7 +248,8 @@ void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
       if (other.unknown.name != one.unknown.name || !other.determined) continue;
       known = true;
       if (std::abs(other.value - one.value) > std::hypot(half, 0.5 * (other.high - other.low)))
-        instead = "without that it is " + FormatRounded(other.value);
+        instead = (left_out ? "without that record it is " : "with that mended it is ") +
+                  FormatRounded(other.value);
     }
     std::string slips;
     for (const ChannelSlip& slip : fit->slips) {

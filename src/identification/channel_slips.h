@@ -2,7 +2,6 @@
 // begin elsewhere than the set says. What would fit is suggested, never applied.
 #pragma once
 
-#include <optional>
 #include <vector>
 
 #include "cosserat_cable/identification/estimation.h"
@@ -11,13 +10,12 @@ namespace cosserat_cable {
 
 /// Looks through the records that the fit leaves far above their noise. Told is a slip that
 /// explains nearly all of that with the cable's parameters free, and the simplest of those that do.
-/// `mended`: the set without slips that hold for all records; not touched where there are none.
+/// In `mended`, a copy of the set, what is found of what acts on the cable is mended.
 std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& fit,
-                                   const EstimationOptions& options,
-                                   std::optional<MeasurementSet>* mended);
+                                   const EstimationOptions& options, MeasurementSet* mended);
 
-/// Marks the parameters that would be others without what the fit's slips are suspected in: as the
-/// other records have them, or with the slip mended where there are none.
+/// Marks the parameters that would be others with the fit's slips mended, and without the records
+/// that were recorded with a slip; with those mended where no others tell.
 void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
                 const EstimationOptions& options, Estimation* fit);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <optional>
 
 #include "channel_slips.h"
 #include "estimation_remarks.h"
@@ -65,11 +64,10 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
   work->Report(unknown_options.scatter);
   Estimation estimation = work->Answer();
   if (options.slips && !work->hurried()) {
-    std::optional<MeasurementSet> mended;
+    MeasurementSet mended = set;
     estimation.slips = FindSlips(set, estimation, options, &mended);
     NameSlips(*unknowns, &estimation);
-    if (!estimation.slips.empty())
-      DoubtSlips(mended.value_or(set), *unknowns, options, &estimation);
+    if (!estimation.slips.empty()) DoubtSlips(mended, *unknowns, options, &estimation);
   }
   return estimation;
 }

@@ -259,7 +259,7 @@ void SlipSearch::SnapToUnits(RecordForm* form) const {
   for (std::size_t c = 0; c < form->channels.size(); ++c) {
     ChannelForm& channel = form->channels[c];
     for (const Unit& unit : UnitsOf(experiment_.channels[c].quantity)) {
-      if (!channel.free_factor || unit.factor < kLargestGain ||
+      if (!channel.free_factor || std::max(unit.factor, 1 / unit.factor) < kLargestGain ||
           std::abs(std::abs(channel.factor) / unit.factor - 1) > kNearUnit)
         continue;
       channel.free_factor = false;
@@ -476,10 +476,12 @@ std::vector<ChannelSlip> SlipSearch::Find() {
   }
   // What another record has may be in this one, too.
   for (const InputSlip& input : inputs_) {
-    if (!known_ || input.text != known_->text) continue;
+    if (!known_ || input.text != known_->input.text) continue;
     const std::optional<Found> same = OfInput(input, known_->factor, {}, least);
     if (IsHealthy(plain, same)) return {};
-    if (same && !(same->fit.left.maxCoeff() > kFarAbove)) return Words(*same, {});
+    if (!same || same->fit.left.maxCoeff() > kFarAbove) continue;
+    input_ = KnownSlip{input, same->factor, same->values};
+    return Words(*same, {});
   }
   if (plain.ok && !(plain.left.maxCoeff() > kFarAbove)) {
     alone_ = model_.ValuesOf(plain);
@@ -515,8 +517,14 @@ std::vector<ChannelSlip> SlipSearch::Find() {
             [&](const Found* a, const Found* b) { return goes_before(*a, *b); });
   others.resize(std::min(others.size(), kMostOthers));
   if (chosen->input) {
-    input_ = KnownSlip{chosen->input->text, chosen->factor, chosen->values};
-    if (chosen->input->of_set) mended_ = chosen->input->Mended(set_, chosen->factor);
+    input_ = KnownSlip{*chosen->input, chosen->factor, chosen->values};
+  } else {
+    // From there the record may be found to fit as it is.
+    plain = model_.Judge(model_.Fit(model_.With(chosen->fit, model_.Plain()), true));
+    if (plain.ok && !(plain.left.maxCoeff() > kFarAbove)) {
+      alone_ = model_.ValuesOf(plain);
+      return {};
+    }
   }
   return Words(*chosen, others);
 }

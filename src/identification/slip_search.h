@@ -45,9 +45,11 @@ struct Found {
 
 /// What was found beside the channels in another record, and the parameters with it mended.
 struct KnownSlip {
-  std::string text;
+  InputSlip input;
   double factor = 1;
   Values values;
+
+  void Mend(MeasurementSet* set) const { input.change(factor, set); }
 };
 
 class SlipSearch {
@@ -73,8 +75,6 @@ class SlipSearch {
   }
 
   std::vector<ChannelSlip> Find();
-  /// The set with what was found mended where that holds for all records; none where nothing was.
-  const std::optional<MeasurementSet>& mended() const { return mended_; }
   /// The parameters with which the record fits as it is, alone; none where it does not.
   const std::optional<Values>& alone() const { return alone_; }
   /// What was found, where it is beside the channels.
@@ -115,7 +115,6 @@ class SlipSearch {
   SlipModel model_;
   std::vector<InputSlip> inputs_;
   Eigen::VectorXd before_;  // by channel, mean square left over the level's
-  std::optional<MeasurementSet> mended_;
   std::optional<KnownSlip> input_;
   std::optional<Values> alone_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();

@@ -140,6 +140,7 @@ std::vector<ChannelSlip> SlipSearch::Words(const Found& found,
   for (ChannelSlip& slip : slips) {
     slip.experiment = experiment_.name;
     slip.values = found.values;
+    slip.of_record = !found.input;
     slip.of_set = found.input && found.input->of_set;
     double before = before_.mean(), after = fit.mean();
     for (std::size_t c = 0; c < experiment_.channels.size(); ++c)

@@ -235,11 +235,11 @@ TEST_P(LoadOfOneRecord, AccusesThatRecordAlone) {
     const ChannelSlip& slip = estimation.slips[0];
     EXPECT_EQ(slip.experiment, set.experiments[slips].name);
     EXPECT_EQ(slip.text, std::string("fits with its load in ") + GetParam().name);
-    // The other record tells [EI] by itself: a number that it contradicts is marked.
+    // A number beyond which the mended load brings [EI] is marked.
     const ParameterEstimate& EI = estimation.parameters[0];
     const double truth = CableSpecimen().cable.EI1;
     if (!EI.determined || (EI.low < truth && EI.high > truth)) continue;
-    EXPECT_NE(EI.doubt.find("without that it is 0.0027"), std::string::npos) << EI.doubt;
+    EXPECT_NE(EI.doubt.find("with that mended it is 0.0027"), std::string::npos) << EI.doubt;
   }
 }
 

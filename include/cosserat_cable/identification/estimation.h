@@ -86,6 +86,9 @@ struct ChannelSlip {
   double before = 0;    ///< what is left, in times the noise
   double after = 0;     ///< with the slip mended
   std::string text;     ///< in words
+  /// Of what was recorded: only without the record is it out of the way. Else of what acts on the
+  /// cable.
+  bool of_record = true;
   bool of_set = false;  ///< it holds for all records of the set
   /// The cable's parameters with the slip mended, from this record alone.
   std::vector<std::pair<std::string, double>> values;
