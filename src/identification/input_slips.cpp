@@ -139,8 +139,8 @@ void AddTimes(const Experiment& experiment, std::size_t e, Slips* slips) {
   const double duration = experiment.record.t.back() - experiment.record.t.front();
   for (const double factor : {1e3, 60.0, 1e-3})
     if (factor * duration < kLongestRecord)
-      slips->push_back({"clock", "with times " + FormatRounded(factor) + " times as long", factor,
-                        "", false, 0, 0, stretch});
+      slips->push_back({"clock", "with times " + FormatRounded(factor, 4) + " times as long",
+                        factor, "", false, 0, 0, stretch});
   slips->push_back({"clock", "times its times (another sampling rate?)", 1, "", false,
                     kLeastOfTimes, kMostOfTimes, stretch});
 }
