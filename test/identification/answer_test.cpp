@@ -19,19 +19,22 @@ ParameterEstimate Estimated(const std::string& name, double value, double low, d
   return one;
 }
 
-TEST(AnswerTest, TheIdentifiedCableHasTheIntervalsOfTheTableAndMarksExtensions) {
+MeasurementSet SetOf(const std::string& cable) {
   Problems problems;
-  MapReader map(YamlValue::Root(
-      "set",
-      YAML::Load("length: 0.25\ndiameter: 0.006\nmass_per_length: 0.05\nEI1: 0.003\nEI2: 0.006\n"
-                 "GJ: 0.0019\neta_EI: 1.0e-6\neta_GJ: 1.0e-6\n"
-                 "extensions: {maxwell: [{tau: 0.1, EI: 0.001}, {tau: 2, GJ: 0.001}],\n"
-                 "             clamp_compliance: {a: {bending: 5}}}\n"),
-      &problems));
+  MapReader map(YamlValue::Root("set", YAML::Load(cable), &problems));
   MeasurementSet set;
   set.cable = ReadCableKeys(&map);
   set.cable_mark = map.mark();
-  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  EXPECT_TRUE(problems.empty()) << problems.ToString();
+  return set;
+}
+
+TEST(AnswerTest, TheIdentifiedCableHasTheIntervalsOfTheTableAndMarksExtensions) {
+  const MeasurementSet set = SetOf(
+      "length: 0.25\ndiameter: 0.006\nmass_per_length: 0.05\nEI1: 0.003\nEI2: 0.006\n"
+      "GJ: 0.0019\neta_EI: 1.0e-6\neta_GJ: 1.0e-6\n"
+      "extensions: {maxwell: [{tau: 0.1, EI: 0.001}, {tau: 2, GJ: 0.001}],\n"
+      "             clamp_compliance: {a: {bending: 5}}}\n");
   Estimation estimation;
   estimation.cable = set.cable;
   // Neither is 1.96 sd to both sides.
@@ -54,16 +57,9 @@ TEST(AnswerTest, TheIdentifiedCableHasTheIntervalsOfTheTableAndMarksExtensions) 
 }
 
 TEST(AnswerTest, ANumberThatASlipMakesIsMarkedWhereverItStands) {
-  Problems problems;
-  MapReader map(YamlValue::Root("set",
-                                YAML::Load("length: 0.25\ndiameter: 0.006\nmass_per_length: 0.05\n"
-                                           "EI: 0.003\nGJ: 0.0019\neta_EI: 1.0e-6\n"
-                                           "eta_GJ: 1.0e-6\n"),
-                                &problems));
-  MeasurementSet set;
-  set.cable = ReadCableKeys(&map);
-  set.cable_mark = map.mark();
-  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  const MeasurementSet set = SetOf(
+      "length: 0.25\ndiameter: 0.006\nmass_per_length: 0.05\nEI: 0.003\nGJ: 0.0019\n"
+      "eta_EI: 1.0e-6\neta_GJ: 1.0e-6\n");
   Estimation estimation;
   estimation.cable = set.cable;
   estimation.parameters = {Estimated("EI", 0.003, 0.0021, 0.0045),

@@ -113,35 +113,43 @@ TEST(Plausibility, AnotherZero) {
       << looks.problems;
 }
 
-/// A cable of 0.25 m on a clamp that travels 3 m in 3 s, its other end seen along the way; its
-/// record's times are late by so much [s].
-std::string SaidOfATravelThatIs(double late, double factor) {
+/// What is said of a cable of 0.25 m on a clamp that moves along x for 3 s, with its tip seen.
+std::string SaidOfAMotion(const std::function<double(double t)>& clamp,
+                          const std::function<double(double t)>& tip, double late = 0) {
   MeasurementSet set;
   set.cable.length.value = 0.25;
   Experiment experiment;
-  experiment.name = "travel";
-  experiment.record.file = "travel.csv";
+  experiment.name = "moved";
+  experiment.record.file = "moved.csv";
   experiment.b.kind = EndCondition::Kind::kFree;
   ClampMotion motion;
+  motion.file = "clamp_a.csv";
   for (int i = 0; i <= 300; ++i) {
     motion.t.push_back(0.01 * i);
     motion.poses.emplace_back();
-    motion.poses.back().p = {0.01 * i, 0, 0};
+    motion.poses.back().p = {clamp(0.01 * i), 0, 0};
   }
   experiment.a.motion = motion;
-  Channel tip;
-  tip.column = "tip_x";
-  tip.s = 0.25;
-  experiment.channels = {tip};
+  Channel channel;
+  channel.column = "tip_x";
+  channel.s = 0.25;
+  experiment.channels = {channel};
   experiment.record.values.resize(300, 1);
   for (int i = 0; i < 300; ++i) {
     experiment.record.t.push_back(0.01 * i + late);
-    experiment.record.values(i, 0) = factor * (0.01 * i + 0.02 * std::sin(0.3 * i));
+    experiment.record.values(i, 0) = tip(0.01 * i);
   }
   set.experiments = {experiment};
   Problems problems, warnings;
   CheckPlausibility(set, &problems, &warnings);
   return problems.ToString();
+}
+
+/// The clamp travels 3 m in 3 s, the cable's other end is seen along the way; the record's times
+/// are late by so much [s].
+std::string SaidOfATravelThatIs(double late, double factor) {
+  return SaidOfAMotion([](double t) { return t; },
+                       [&](double t) { return factor * (t + 0.02 * std::sin(30 * t)); }, late);
 }
 
 TEST(Plausibility, ALateRecordOfAMovingClampIsNotInMillimetres) {
@@ -156,37 +164,12 @@ TEST(Plausibility, ALateRecordOfAMovingClampIsNotInMillimetres) {
   EXPECT_NE(scaled.find("is it in mm?"), std::string::npos) << scaled;
 }
 
-/// A cable of 0.25 m on a clamp that swings by 0.1 m about a place 1 m from the origin, its end
-/// seen behind it; `change` is done to what the clamp's file says.
+/// The clamp swings by 0.1 m about a place 1 m from the origin, the cable's end is seen behind it;
+/// `change` is done to what the clamp's file says.
 std::string SaidOfASwingWith(const std::function<double(double x)>& change) {
-  MeasurementSet set;
-  set.cable.length.value = 0.25;
-  Experiment experiment;
-  experiment.name = "swing";
-  experiment.record.file = "swing.csv";
-  experiment.b.kind = EndCondition::Kind::kFree;
-  const auto place = [](double t, double late) { return 1 + 0.1 * std::sin(4 * (t - late)); };
-  ClampMotion motion;
-  motion.file = "clamp_a.csv";
-  for (int i = 0; i <= 300; ++i) {
-    motion.t.push_back(0.01 * i);
-    motion.poses.emplace_back();
-    motion.poses.back().p = {change(place(0.01 * i, 0)), 0, 0};
-  }
-  experiment.a.motion = motion;
-  Channel tip;
-  tip.column = "tip_x";
-  tip.s = 0.25;
-  experiment.channels = {tip};
-  experiment.record.values.resize(300, 1);
-  for (int i = 0; i < 300; ++i) {
-    experiment.record.t.push_back(0.01 * i);
-    experiment.record.values(i, 0) = place(0.01 * i, 0.05);
-  }
-  set.experiments = {experiment};
-  Problems problems, warnings;
-  CheckPlausibility(set, &problems, &warnings);
-  return problems.ToString();
+  const auto place = [](double t) { return 1 + 0.1 * std::sin(4 * t); };
+  return SaidOfAMotion([&](double t) { return change(place(t)); },
+                       [&](double t) { return place(t - 0.05); });
 }
 
 TEST(Plausibility, TheUnitOfAMotionFileIsItsOwnAndNoChannels) {

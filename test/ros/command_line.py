@@ -33,6 +33,17 @@ class CommandLine(unittest.TestCase):
     def path(self, name):
         return os.path.join(self.folder, name)
 
+    def refused(self, *expected, vehicle=SWEEP_URDF, cables=SWEEP_YAML, bag=SWEEP_BAG):
+        """Both tools exit with 2, say all of `expected`, and write nothing."""
+        inputs = ['--vehicle', vehicle, '--cables', cables, '--bag', bag]
+        output = ['--output', os.path.join(self.output_folder, 'out.bag')]
+        for tool, arguments in (('cable_check', inputs), ('cable_replay', inputs + output)):
+            code, text = run(tool, *arguments)
+            self.assertEqual(code, 2, '%s: %s' % (tool, text))
+            for words in expected:
+                self.assertIn(words, text, tool)
+            self.assertEqual(os.listdir(self.output_folder), [], tool)
+
     def cables(self, *changes):
         """The sweep's cable file with pieces of its text replaced."""
         with open(SWEEP_YAML) as source:
