@@ -11,7 +11,7 @@ import record_signals as signals
 from report_numbers import NORMAL_95, number, percent, unit_of
 from report_page import Bullets, Figure, Folded, Heading, Table, Text
 
-MOST_LATE = 5  # causes that are told by name where the time limit was reached
+MOST_LATE = 5  # causes that are told by name where the time budget was spent
 LEADS = {'none': 'No cause:', 'ambiguous': 'Ambiguous:', 'unexplained': 'Unexplained:'}
 
 
@@ -328,16 +328,16 @@ def cost_items(data):
 
 
 def late_items(data):
-    """What the time limit left untried."""
+    """What the time budget left untried."""
     late = sorted((c for c in data.get('candidates', []) if not c.get('fitted')
-                   and 'time limit' in (c.get('rejected') or '')),
+                   and 'time budget' in (c.get('rejected') or '')),
                   key=lambda c: -(c.get('promise') or 0))
     if not late:
         return []
     names = [f"{c['cause']} ({percent(c.get('promise') or 0)})" for c in late[:MOST_LATE]]
     if len(late) > MOST_LATE:
         names.append(f'{len(late) - MOST_LATE} others')
-    return [Text('The time limit was reached before these causes were fitted, and they may be at work: '
+    return [Text('The time budget was spent before these causes were fitted, and they may be at work: '
                  f'{joined(names)}. In brackets: what they explain of the misfit to first order.',
                  'warning')]
 

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
                  "folder for verdict.json, extended_cable.yaml, extended_measurement.yaml, fit/ "
                  "and report.html")
       ->required();
-  app.add_option("--time-limit", options.time_limit,
+  app.add_option("--time-budget,--time-limit", options.time_budget,
                  "causes that are not fitted by then stay so [s]")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
                  "it with the parameters");
   app.add_option("--uncertain-length", options.unknowns.length_sd,
                  "free lengths are wrong by about this [m]: estimate them with the parameters");
-  app.add_option("--time-limit", options.time_limit,
+  app.add_option("--time-budget,--time-limit", options.time_budget,
                  "end with what was found when the fit has taken this long [s]; 0: when it is done")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();

@@ -39,8 +39,8 @@ void CheckOutputs(const DiagnoseRunOptions& options, const MeasurementSet& set,
                   Problems* problems) {
   PlannedOutputs outputs;
   for (const std::string& file : FilesOf(set)) outputs.Reads(file);
-  std::vector<std::string> files = {"verdict.json",        "fits.json",    kBaselineCable,
-                                    kExtendedCable,        "report.html",  kExtendedMeasurement,
+  std::vector<std::string> files = {"verdict.json",    "fits.json",   kBaselineCable,
+                                    kExtendedCable,    "report.html", kExtendedMeasurement,
                                     "measurement.yaml"};
   for (const Experiment& experiment : set.experiments) {
     files.push_back("fit/" + experiment.name + ".csv");
@@ -79,7 +79,7 @@ ExitCode RunDiagnose(const DiagnoseRunOptions& options) {
 
   CatchInterrupts();
   DiagnosisOptions diagnosis_options;
-  diagnosis_options.time_limit = options.time_limit;
+  diagnosis_options.time_budget = options.time_budget;
   diagnosis_options.advise = options.advise;
   diagnosis_options.memory = (folder / "fits.json").string();
   diagnosis_options.stop = Interrupted;

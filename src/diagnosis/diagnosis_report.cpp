@@ -102,7 +102,7 @@ std::map<std::string, FoundParameter> DiagnosisWork::FoundIn(const FittedTrial& 
 
 Records DiagnosisWork::HeldOut(const FittedTrial& of) const {
   FitProblemOptions options = ProblemOptions();
-  options.stop = [this] { return Stopping() || Seconds() > options_.time_limit; };
+  options.stop = [this] { return Stopping() || Seconds() > options_.time_budget; };
   options.max_iterations = kHeldOutIterations;
   if (of.IsFar()) options.held = of.OfSingleRecords();
   if (set_.experiments.size() == whole_.experiments.size())
@@ -174,7 +174,7 @@ void DiagnosisWork::ReportCandidates(const Judgement& judgement) {
         : promise == promises_.end()
             ? "no record of this set shows it, or nothing of this kind can be simulated here"
         : OutOfTime() && !tried_.count(cause.name)
-            ? "not fitted: the time limit was reached"
+            ? "not fitted: the time budget was spent"
             : "not fitted: to first order it explains " +
                   FormatRounded(100 * candidate.promise, 2) + " % of the misfit";
     diagnosis_.candidates.push_back(std::move(candidate));
@@ -229,11 +229,11 @@ void DiagnosisWork::Say(const Judgement& judgement) {
   std::string& sentence = diagnosis_.sentence;
   const bool untried = std::any_of(
       diagnosis_.candidates.begin(), diagnosis_.candidates.end(), [](const Candidate& one) {
-        return !one.fitted && one.rejected.find("time limit") != std::string::npos;
+        return !one.fitted && one.rejected.find("time budget") != std::string::npos;
       });
   if (untried)
     diagnosis_.warnings.push_back(
-        "the time limit was reached before all causes were tried: --time-limit gives more");
+        "the time budget was spent before all causes were tried: --time-budget gives more");
   switch (diagnosis_.verdict) {
     case Verdict::kNone:
       sentence = left + ": nothing is missing that these records show.";
@@ -245,12 +245,13 @@ void DiagnosisWork::Say(const Judgement& judgement) {
     case Verdict::kAmbiguous: {
       std::vector<std::string> answers = {WordsOf(model(judgement.best))};
       for (const int r : judgement.rivals) answers.push_back(WordsOf(model(r)));
-      sentence = left + ". The records cannot tell which of these is at work: " +
-                 List(answers, "or") + ".";
+      sentence = left +
+                 ". The records cannot tell which of these is at work: " + List(answers, "or") +
+                 ".";
       break;
     }
     case Verdict::kUnexplained:
-      sentence = left + (untried ? ", and the time limit was reached before all causes were tried"
+      sentence = left + (untried ? ", and the time budget was spent before all causes were tried"
                          : diagnosis_.interrupted
                              ? ", and the work was interrupted before all causes were tried"
                              : ", and no cause of the library accounts for it");

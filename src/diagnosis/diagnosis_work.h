@@ -75,7 +75,7 @@ class DiagnosisWork {
   const FittedTrial& model(int i) const { return *models_[static_cast<std::size_t>(i)]; }
   bool Stopping() const;
   /// For fits; what follows them has the rest of the time.
-  bool OutOfTime() const { return Seconds() > kFits * options_.time_limit; }
+  bool OutOfTime() const { return Seconds() > kFits * options_.time_budget; }
   Difference DifferenceBetween(int worse, int better) const;
   const std::string& message() const { return diagnosis_.message; }
   Diagnosis Failed();

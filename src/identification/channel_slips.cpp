@@ -174,8 +174,8 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   const auto begin = std::chrono::steady_clock::now();
   const auto time_left = [&] {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    return options.time_limit > 0 ? options.time_limit - fit.seconds - taken.count()
-                                  : std::numeric_limits<double>::infinity();
+    return options.time_budget > 0 ? options.time_budget - fit.seconds - taken.count()
+                                   : std::numeric_limits<double>::infinity();
   };
   const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
   EstimationOptions of_record = options;
@@ -187,7 +187,7 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
     if (options.progress &&
         !options.progress("looking for slips in " + set.experiments[e].name, 0.95))
       return slips;
-    of_record.time_limit = std::min(time_left(), std::max(kLeastTime, kPartOfFit * fit.seconds));
+    of_record.time_budget = std::min(time_left(), std::max(kLeastTime, kPartOfFit * fit.seconds));
     if (set.experiments[e].start.kind == StartCondition::Kind::kUnknown) {
       const auto found = OffsetsBesideAStart(set, e, fit.experiments[e], of_record);
       slips.insert(slips.end(), found.begin(), found.end());
@@ -225,7 +225,7 @@ void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
       rest.experiments.push_back(experiment);
   const bool left_out = rest.experiments.size() < mended.experiments.size();
   EstimationOptions of_rest = Cheap(options);
-  of_rest.time_limit = std::max(kLeastTime, fit->seconds);
+  of_rest.time_budget = std::max(kLeastTime, fit->seconds);
   for (const ParameterEstimate& one : fit->parameters)
     if (one.unknown.kind == Unknown::Kind::kCable)
       of_rest.guesses.push_back({one.unknown.name, one.value});

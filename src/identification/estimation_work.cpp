@@ -177,7 +177,7 @@ bool EstimationWork::Hurry() {
   estimation_.message.clear();
   end_ = estimation_.interrupted
              ? "interrupted"
-             : "the time limit of " + FormatRounded(options_.time_limit) + " s was reached";
+             : "the time budget of " + FormatRounded(options_.time_budget) + " s is spent";
   RecordModel::Simulated found = model_.Simulate({optimum_.values}, model_.WholeHorizon()).front();
   if (!found.ok) {
     estimation_.message = found.message;

@@ -62,8 +62,8 @@ class EstimationWork {
   bool FitToEnd();
   bool Stopped() const { return stopped_ || (options_.stop && options_.stop()); }
   bool OutOfTime() const {
-    return options_.time_limit > 0 &&
-           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_limit;
+    return options_.time_budget > 0 &&
+           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_budget;
   }
   bool Hurry();
   void LoosenNoise();

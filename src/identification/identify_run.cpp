@@ -65,7 +65,7 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
       return !Interrupted();
     };
     estimation_options.stop = Interrupted;
-    estimation_options.time_limit = options.time_limit;
+    estimation_options.time_budget = options.time_budget;
     if (options.direct) {
       progress.Update(0, "frequencies and decay rates");
       direct = EvaluateDirectly(set);

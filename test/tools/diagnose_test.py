@@ -127,7 +127,7 @@ class Diagnose(unittest.TestCase):
                         '--strength', '5', '--output', self.path('blind')],
                        check=True, capture_output=True)
         os.rename(self.path('blind', 'set'), self.path('set'))
-        verdict, out = self.diagnose('--time-limit', 60)
+        verdict, out = self.diagnose('--time-budget', 60)
         self.assertEqual(verdict['verdict'], 'unexplained', out)
         self.assertGreater(verdict['baseline']['times_noise'], 2)
 

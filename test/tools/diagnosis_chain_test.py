@@ -44,7 +44,7 @@ REAL_STEP = 5e-4      # [s], half of the replay's own
 FITTED_ELEMENTS = 20  # of an arch; the README gives its frequency within 0.05 % with ten
 
 # [s] So long that a busy machine does not change the verdict.
-TIME_LIMIT = 1200
+TIME_BUDGET = 1200
 
 # Of the gain. The claim is a prediction of the last part of a single record: its 95 % interval
 # reaches some 0.04 to both sides. The apex is one point of two, and the road goes on otherwise.
@@ -171,7 +171,7 @@ class DiagnosisChain(unittest.TestCase):
 
     def diagnose(self):
         out = self.program('cable_diagnose', self.path('set'), '--output', self.path('answer'),
-                           '--no-report', '--time-limit', TIME_LIMIT)
+                           '--no-report', '--time-budget', TIME_BUDGET)
         with open(self.path('answer', 'verdict.json')) as file:
             verdict = json.load(file)
         self.assertEqual((verdict['verdict'], verdict['causes']), ('named', [CAUSE]), out)

@@ -168,7 +168,7 @@ class DiagnosisReport(unittest.TestCase):
         data = answer()
         data.update(verdict='unexplained', causes=[], extended=None, gain=None, interrupted=True,
                     noise_known=False)
-        data['candidates'][2]['rejected'] = 'not fitted: the time limit was reached'
+        data['candidates'][2]['rejected'] = 'not fitted: the time budget was spent'
         self.write(data)
         self.assert_told(self.report(), 'Unexplained:', 'the best there is; not enough',
                          'The work was interrupted', 'The noise of a channel is not known',

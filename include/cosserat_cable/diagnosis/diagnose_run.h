@@ -9,9 +9,9 @@ namespace cosserat_cable {
 
 struct DiagnoseRunOptions {
   std::string set;
-  std::string output;       ///< folder
-  double time_limit = 300;  ///< see DiagnosisOptions [s]
-  bool advise = true;       ///< likewise
+  std::string output;        ///< folder
+  double time_budget = 300;  ///< see DiagnosisOptions [s]
+  bool advise = true;        ///< likewise
   bool report = true;
   std::string report_program;  ///< scripts/diagnosis_report
   std::string json;

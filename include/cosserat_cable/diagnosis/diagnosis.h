@@ -17,9 +17,9 @@ namespace cosserat_cable {
 using DiagnosisProgress = std::function<bool(const std::string& what, double part)>;
 
 struct DiagnosisOptions {
-  double time_limit = 300;  ///< [s]: candidates that are not fitted by then stay unfitted
-  bool advise = true;       ///< look for the experiment that would tell rivals apart
-  std::string memory;       ///< file of the fits made so far, to go on with; may be empty
+  double time_budget = 300;  ///< [s]: candidates that are not fitted by then stay unfitted
+  bool advise = true;        ///< look for the experiment that would tell rivals apart
+  std::string memory;        ///< file of the fits made so far, to go on with; may be empty
   DiagnosisProgress progress;
   std::function<bool()> stop;
 };

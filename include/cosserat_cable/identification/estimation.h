@@ -36,7 +36,7 @@ struct EstimationOptions {
   /// Asked in any thread; true ends the work at once, with what was found until then.
   std::function<bool()> stop;
   /// The work ends with what was found when it has taken this long [s]; 0: when it is done.
-  double time_limit = 0;
+  double time_budget = 0;
 };
 
 /// The likelihood along one parameter, all others at their best.

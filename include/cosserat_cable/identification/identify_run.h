@@ -15,7 +15,7 @@ struct IdentifyRunOptions {
   UnknownOptions unknowns;
   bool profiles = true;
   bool use_damaged = false;  ///< see EstimationOptions
-  double time_limit = 300;   ///< likewise [s]
+  double time_budget = 300;  ///< likewise [s]
   bool slips = true;         ///< likewise
   bool direct = true;        ///< the source paper's evaluation beside the fit
   bool plan = false;
