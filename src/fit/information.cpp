@@ -15,6 +15,9 @@ namespace {
 constexpr double kWidest = 1.0;
 // Eigenvalue of the normalised information below which there is none.
 constexpr double kNoInformation = 1e-12;
+// Variance beside that in white noise, at least: an autocorrelation is cut where it has died to
+// this.
+constexpr double kLeastColour = 1e-3;
 
 Eigen::MatrixXd Sub(const Eigen::MatrixXd& m, const std::vector<int>& which) {
   Eigen::MatrixXd sub(which.size(), which.size());
@@ -24,18 +27,23 @@ Eigen::MatrixXd Sub(const Eigen::MatrixXd& m, const std::vector<int>& which) {
 }
 
 /// Covariance over `which` alone, by eigenvectors of the information normalised to unit diagonal:
-/// directions without information get a variance that is as good as infinite.
+/// directions without information get a variance that is as good as infinite, and none gets a
+/// negative one from rounding.
 Eigen::MatrixXd SubCovariance(const Information& information, const std::vector<int>& which) {
+  using Eigenvectors = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>;
   const Eigen::MatrixXd expected = Sub(information.expected, which);
   const Eigen::VectorXd unit =
       expected.diagonal().cwiseSqrt().unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-  const Eigen::MatrixXd normal = unit.asDiagonal() * expected * unit.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(normal);
-  const Eigen::VectorXd inverse =
-      eigen.eigenvalues().unaryExpr([](double x) { return 1 / std::max(x, kNoInformation); });
-  const Eigen::MatrixXd inverted = unit.asDiagonal() * eigen.eigenvectors() * inverse.asDiagonal() *
-                                   eigen.eigenvectors().transpose() * unit.asDiagonal();
-  return inverted * Sub(information.scatter, which) * inverted.transpose();
+  const Eigenvectors normal(unit.asDiagonal() * expected * unit.asDiagonal());
+  // A square root of the covariance in white noise; and how the noise's colour changes it.
+  const Eigen::MatrixXd root =
+      unit.asDiagonal() * normal.eigenvectors() *
+      normal.eigenvalues().cwiseMax(kNoInformation).cwiseSqrt().cwiseInverse().asDiagonal();
+  const Eigenvectors colour(root.transpose() * Sub(information.scatter, which) * root);
+  const Eigen::MatrixXd coloured =
+      root * colour.eigenvectors() *
+      colour.eigenvalues().cwiseMax(kLeastColour).cwiseSqrt().asDiagonal();
+  return coloured * coloured.transpose();
 }
 
 /// What size of the unknown, in its scale, would be worth knowing: its own value; a damping may
