@@ -20,7 +20,7 @@ constexpr int kElementsTried[] = {kElements, 24, 32, 40, 64, 80, 160};
 // Of the samples' median interval, since a record shows nothing faster than its samples; and by how
 // far a motion turns its phase in a step [rad]; within bounds.
 constexpr double kStepOfInterval = 0.25, kStepOfMotion = 0.1;
-constexpr double kSmallestStep = 1e-3, kLargestStep = 5e-3;  // [s]
+constexpr double kSmallestStep = 1e-3, kLargestStep = 2e-2;  // [s]
 constexpr double kFinest = 1e-4;                             // [s]
 // Rms of what the steps do, in parts of a channel's range, that asks for finer ones. What they do
 // in a few samples only, at a shock, does not: those count less.
