@@ -99,6 +99,8 @@ void DiagnosisWork::FitPromisingPairs(const std::vector<Screened>& screened, dou
   const double left_by_one = misfit - screened.front().drop;
   for (std::size_t k = 0; k < std::min(pairs.size(), kPromisingPairs); ++k) {
     if (misfit - pairs[k].drop > kPairLeaves * left_by_one || IsExplained()) break;
+    // The best of very many pairs explains some of the noise, too.
+    if (pairs[k].drop < screened.front().drop + 2 * kChance) break;
     const std::vector<Trial> trials = {screened[pairs[k].first].trial,
                                        screened[pairs[k].second].trial};
     if (OutOfTime() || !Tell("trying " + trials[0].cause + " and " + trials[1].cause, part)) return;
