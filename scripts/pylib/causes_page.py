@@ -27,7 +27,8 @@ LAWS = {
     'clamp_friction': ('dry friction or partial slip at a clamp',
                        'M = -spring psi - stuck (psi - p), the second at most `slip_moment`, '
                        'where p slips',
-                       'extensions.clamp_friction: a, b: stuck, slip_moment, spring'),
+                       'extensions.clamp_friction: a, b, a_torsion, b_torsion: stuck, slip_moment, '
+                       'spring'),
     'clamp_play': ('backlash at a clamp',
                    'M = -stiffness (abs(psi) - gap) along psi beyond `gap`, 0 within',
                    'extensions.clamp_play: a, b: gap, stiffness'),

@@ -37,15 +37,23 @@ class ClampNumbers {
   std::string clamp_;
 };
 
-/// Calls `act(end, numbers)` for each clamp of which a map is given.
+/// Calls `act(end, numbers)` for each of these maps that is given.
+template <class Act>
+void ForEachGroup(const CableExtension& extension,
+                  const std::vector<std::pair<std::string, rod::EndModel*>>& groups,
+                  const Act& act) {
+  const auto& numbers = extension.parts.front();
+  for (const auto& [group, end] : groups) {
+    const auto first = numbers.lower_bound(group + ".");
+    if (first != numbers.end() && first->first.rfind(group + ".", 0) == 0)
+      act(end, ClampNumbers(numbers, group));
+  }
+}
+
+/// For the maps `a` and `b`.
 template <class Act>
 void ForEachClamp(const CableExtension& extension, rod::RodModel* rod, const Act& act) {
-  const auto& numbers = extension.parts.front();
-  for (const auto& [clamp, end] : {std::make_pair(std::string("a"), &rod->a), {"b", &rod->b}}) {
-    const auto first = numbers.lower_bound(clamp + ".");
-    if (first != numbers.end() && first->first.rfind(clamp + ".", 0) == 0)
-      act(end, ClampNumbers(numbers, clamp));
-  }
+  ForEachGroup(extension, {{"a", &rod->a}, {"b", &rod->b}}, act);
 }
 
 }  // namespace cosserat_cable

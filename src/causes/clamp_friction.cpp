@@ -1,4 +1,5 @@
-// `clamp_friction`: clamps that turn in bending against a spring and a dry friction.
+// `clamp_friction`: clamps that turn in bending or in torsion against a spring and a dry friction;
+// a disc whose bearing rubs.
 #include "cosserat_cable/rod/clamp_friction.h"
 
 #include "clamp_fields.h"
@@ -7,17 +8,29 @@
 namespace cosserat_cable {
 namespace {
 
+using About = rod::ClampFriction::About;
+
+// The maps of the law: in bending a and b, about a3 these.
+constexpr const char* kTorsionOfA = "a_torsion";
+constexpr const char* kTorsionOfB = "b_torsion";
+
+void Rub(const ClampNumbers& of, About about, rod::EndModel* end) {
+  const double stuck = of("stuck"), slip_moment = of("slip_moment"), spring = of("spring");
+  const bool rubs = stuck > 0 && slip_moment > 0;
+  if (!rubs && spring == 0) return;
+  for (const int axis : {0, 1, 2}) {
+    if ((axis == 2) != (about == About::kTorsion)) continue;
+    end->rotation[axis] = false;
+    end->stiffness[axis] += spring;
+  }
+  if (rubs) end->laws.push_back(std::make_shared<rod::ClampFriction>(stuck, slip_moment, about));
+}
+
 void Enter(const CableExtension& extension, rod::RodModel* rod) {
-  ForEachClamp(extension, rod, [](rod::EndModel* end, const ClampNumbers& of) {
-    const double stuck = of("stuck"), slip_moment = of("slip_moment"), spring = of("spring");
-    const bool rubs = stuck > 0 && slip_moment > 0;
-    if (!rubs && spring == 0) return;
-    for (const int axis : {0, 1}) {
-      end->rotation[axis] = false;
-      end->stiffness[axis] += spring;
-    }
-    if (rubs) end->laws.push_back(std::make_shared<rod::ClampFriction>(stuck, slip_moment));
-  });
+  ForEachClamp(extension, rod,
+               [](rod::EndModel* end, const ClampNumbers& of) { Rub(of, About::kBending, end); });
+  ForEachGroup(extension, {{kTorsionOfA, &rod->a}, {kTorsionOfB, &rod->b}},
+               [](rod::EndModel* end, const ClampNumbers& of) { Rub(of, About::kTorsion, end); });
 }
 
 }  // namespace
@@ -27,9 +40,10 @@ Cause ClampFrictionCause() {
   Cause cause;
   ExtensionLaw& law = cause.law.emplace();
   law.name = "clamp_friction";
-  law.shape = "clamps {a: {stuck: ..., slip_moment: ..., spring: ...}, b: ...}";
+  law.shape = "clamps {a: {stuck: ..., slip_moment: ..., spring: ...}, b: ..., a_torsion: ...}";
   const NumberSpec stiffness = NumberSpec::AtLeast(0, "N m/rad").AtMost(1e9);
-  for (const std::string clamp : {"a.", "b."}) {
+  for (const std::string group : {"a", "b", kTorsionOfA, kTorsionOfB}) {
+    const std::string clamp = group + ".";
     law.fields.push_back({clamp + "stuck", "N m/rad", stiffness, Need::kInGroup});
     law.fields.push_back(
         {clamp + "slip_moment", "N m", NumberSpec::AtLeast(0, "N m").AtMost(1e6), Need::kInGroup});
@@ -58,6 +72,19 @@ Cause ClampFrictionCause() {
                                            Role::kFree, spring, NumberScale::kSimplerStiffness},
                                           {"extensions.clamp_friction." + clamp + "slip_moment",
                                            Role::kFree, moment, NumberScale::kClampMoment}}}});
+  for (const double moment : {0.03, 0.1, 0.3})
+    cause.hypotheses.push_back({{{{"extensions.clamp_friction.a_torsion.stuck", Role::kInverse, 20,
+                                   NumberScale::kClampTorsion},
+                                  {"extensions.clamp_friction.a_torsion.spring", Role::kInverse, 10,
+                                   NumberScale::kClampTorsion},
+                                  {"extensions.clamp_friction.a_torsion.slip_moment", Role::kFree,
+                                   moment, NumberScale::kTwistMoment}}}});
+  // The bearing of a disc, which turns by more than what sticks there gives way.
+  cause.hypotheses.push_back({{{{"extensions.clamp_friction.b_torsion.slip_moment", Role::kSize, 1,
+                                 NumberScale::kTwistMoment},
+                                {"extensions.clamp_friction.b_torsion.stuck", Role::kHeld, 100,
+                                 NumberScale::kClampTorsion},
+                                {"extensions.clamp_friction.b_torsion.spring", Role::kHeld, 0}}}});
   cause.contains = {"clamp_compliance"};
   return cause;
 }

@@ -104,7 +104,7 @@ Records DiagnosisWork::HeldOut(const FittedTrial& of) const {
   FitProblemOptions options = ProblemOptions();
   options.stop = [this] { return Stopping() || Seconds() > options_.time_budget; };
   options.max_iterations = kHeldOutIterations;
-  if (of.IsFar()) options.held = of.OfSingleRecords();
+  options.held = of.Held();
   if (set_.experiments.size() == whole_.experiments.size())
     return ExactHeldOut({of.set, of.point, *of.problem}, options);
   options.held.clear();

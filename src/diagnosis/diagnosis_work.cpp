@@ -27,6 +27,8 @@ constexpr int kSharper = 4;
 constexpr double kMuchLeft = 36;
 // Times the noise.
 constexpr double kFar = 30;
+// Unknowns of single records, their starts above all, that cost little to be fitted everywhere.
+constexpr std::size_t kFewOfRecords = 30;
 // A factor that the plain model has changed a stiffness by, from which a cause may not find back.
 constexpr double kRanAway = 3;
 const char* const kPlain = "plain";
@@ -64,10 +66,11 @@ int FittedTrial::parameters() const {
 
 bool FittedTrial::IsFar() const { return point.cost > kFar * kFar * std::max(1.0, point.samples); }
 
-std::vector<std::string> FittedTrial::OfSingleRecords() const {
+std::vector<std::string> FittedTrial::Held() const {
   std::vector<std::string> names;
   for (const Unknown& u : point.unknowns)
-    if (u.experiment >= 0) names.push_back(u.name);
+    if (IsFar() && u.experiment >= 0) names.push_back(u.name);
+  if (names.size() <= kFewOfRecords) names.clear();
   return names;
 }
 
@@ -222,8 +225,8 @@ std::unique_ptr<FittedTrial> DiagnosisWork::FitOne(const std::vector<Trial>& tri
   options.aim = Aim();
   options.quick = true;
   options.progress = [this](const std::string&) { return !Stopping(); };
-  fitted->held = from.IsFar();
-  if (fitted->held) options.held = from.OfSingleRecords();
+  options.held = from.Held();
+  fitted->held = !options.held.empty();
   Problems problems;
   fitted->problem = std::make_unique<FitProblem>(fitted->set, options, &problems);
   if (!problems.empty()) return nullptr;
@@ -292,7 +295,7 @@ bool DiagnosisWork::Keep(std::unique_ptr<FittedTrial> model) {
 }
 
 bool DiagnosisWork::HasEnded(const FittedTrial& model) const {
-  return model.point.at_minimum && !(model.held && !model.IsFar());
+  return model.point.at_minimum && !(model.held && model.Held().empty());
 }
 
 /// To its end.
@@ -301,7 +304,8 @@ void DiagnosisWork::GoOn(FittedTrial* model) {
   const SimulationCount before = model->problem->count();
   model->problem->SetMaxIterations(kMoreIterations);
   model->problem->SetAim(Aim());
-  model->held = model->IsFar();
+  const std::vector<std::string> held = model->Held();
+  model->held = !held.empty();
   if (!model->held) model->problem->SetHeld({});
   FitPoint point = model->problem->FitFrom(model->point);
   Charge("candidates", model->problem->count() - before);

@@ -58,6 +58,8 @@ double MotionScales::Of(NumberScale scale, const std::string& path) const {
       return clamp_moment / EI;
     case NumberScale::kClampMoment:
       return clamp_moment;
+    case NumberScale::kTwistMoment:
+      return twist_moment;
     case NumberScale::kPeriod:
       return period;
     case NumberScale::kFrequency:
@@ -87,14 +89,16 @@ MotionScales FindMotionScales(const FitProblem& problem, const FitPoint& at) {
     if (!moments.ok) continue;
     // Twist is the small part of a moment across the frame; its change counts with the rest.
     const Eigen::RowVectorXd mean = moments.values.colwise().mean();
-    for (Eigen::Index first = 0; first < moments.values.cols(); first += 3)
-      scales.clamp_moment = std::max(
-          scales.clamp_moment,
-          (moments.values.rowwise() - mean).middleCols(first, 3).rowwise().norm().maxCoeff());
+    const Eigen::MatrixXd change = moments.values.rowwise() - mean;
+    for (Eigen::Index first = 0; first < change.cols(); first += 3)
+      scales.clamp_moment =
+          std::max(scales.clamp_moment, change.middleCols(first, 3).rowwise().norm().maxCoeff());
+    scales.twist_moment = std::max(scales.twist_moment, change.col(2).cwiseAbs().maxCoeff());
   }
   if (!(scales.length > 0))
     scales.length = scales.shortest = scales.keys.length.value.value_or(1.0);
   if (!(scales.period > 0)) scales.period = 2 * kPi / BendingFrequency(scales.keys);
+  if (!(scales.twist_moment > 0)) scales.twist_moment = 0.1 * scales.GJ / scales.length;
   if (!(scales.clamp_moment > 0)) scales.clamp_moment = 0.1 * scales.EI / scales.length;
   return scales;
 }

@@ -16,6 +16,7 @@ struct MotionScales {
   double shortest = 0;      ///< of the shortest [m]
   double period = 0;        ///< of the slowest swing [s]
   double clamp_moment = 0;  ///< largest change of the bending moment at a clamp [N m]
+  double twist_moment = 0;  ///< likewise of the twisting moment at clamp a [N m]
 
   /// The stiffness that the simpler cause has found, by "a.bending" and the like [N m/rad].
   std::map<std::string, double> simpler;

@@ -34,11 +34,16 @@ void Release(const EndCondition& end, rod::EndModel* model) {
   if (end.roll_unknown) model->rotation[2] = false;
 }
 
-/// An end that no clamp holds; a dashpot about the axis stays (the disc's D_E).
-void LetGo(rod::EndModel* model) {
-  const double D_E = model->damping.z();
-  *model = rod::EndModel::Free();
-  model->damping.z() = D_E;
+/// An end that no clamp holds.
+void LetGo(rod::EndModel* model) { *model = rod::EndModel::Free(); }
+
+/// An end that a disc takes from its clamp; what acts about its axis stays.
+void GiveToDisc(rod::EndModel* model) {
+  const rod::EndModel held = *model;
+  LetGo(model);
+  model->damping.z() = held.damping.z();
+  for (const auto& law : held.laws)
+    if (law->InTorsionOnly()) model->laws.push_back(law);
 }
 
 /// The shape at another number of nodes, evenly spread.
@@ -92,7 +97,7 @@ rod::RodModel Rig::Model(Turn b) const {
       const double J = specimen_.disc_inertia;
       model.bodies.push_back(
           {specimen_.cable.length, experiment_.b.disc.mass, Vector3d(0.5 * J, 0.5 * J, J)});
-      LetGo(&model.b);
+      GiveToDisc(&model.b);
       if (experiment_.b.disc.guided) {
         model.b.translation = {true, true, false};
         model.b.rotation = {true, true, false};

@@ -28,20 +28,24 @@ void CheckSpecimen(CableKeys keys, const SourceMark& cable, Problems* problems) 
 void CheckClampLaws(const CableKeys& keys, const std::vector<Experiment>& experiments,
                     Problems* problems) {
   if (!keys.extensions.value || experiments.empty()) return;
-  const bool clamped = std::any_of(experiments.begin(), experiments.end(), [](const Experiment& e) {
-    return e.b.kind == EndCondition::Kind::kClamp;
-  });
-  if (clamped) return;
+  const auto any = [&](EndCondition::Kind kind) {
+    return std::any_of(experiments.begin(), experiments.end(),
+                       [&](const Experiment& e) { return e.b.kind == kind; });
+  };
+  if (any(EndCondition::Kind::kClamp)) return;
   for (const ExtensionKey& key : *keys.extensions.value) {
     const std::string& name = key.extension.name;
     if (name != "clamp_friction" && name != "clamp_play") continue;
     const auto& marks = key.marks.front();
-    const auto first = marks.lower_bound("b.");
-    if (first == marks.end() || first->first.rfind("b.", 0) != 0) continue;
-    problems->Add(first->second, "got " + name +
-                                     " of clamp b, which no experiment has: end b is free or "
-                                     "carries a disc; expected none, or an experiment with a clamp "
-                                     "at b");
+    for (const std::string group : {"b.", "b_torsion."}) {
+      const auto first = marks.lower_bound(group);
+      if (first == marks.end() || first->first.rfind(group, 0) != 0) continue;
+      if (group == "b_torsion." && any(EndCondition::Kind::kDisc)) continue;
+      problems->Add(first->second,
+                    "got " + name +
+                        " of clamp b, which no experiment has: end b is free or carries a disc; "
+                        "expected none, or an experiment with a clamp at b");
+    }
   }
 }
 

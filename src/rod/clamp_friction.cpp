@@ -3,8 +3,7 @@
 namespace cosserat_cable::rod {
 namespace {
 
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
+using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // Just slipped, it sticks again until it goes on, whatever rounding made of the slip.
@@ -17,19 +16,19 @@ std::unique_ptr<EndLaw> ClampFriction::Clone() const {
 }
 
 EndLaw::Resistance ClampFriction::Resist(const Vector3d& psi, const Vector3d&) const {
-  const Vector2d trial = Trial(psi);
+  const Vector3d trial = Trial(psi);
   const double size = trial.norm();
   Resistance resistance;
   if (size <= kOnSurface * slip_moment_) {
-    resistance.moment.head<2>() = trial;
-    resistance.by_psi.topLeftCorner<2, 2>() = stuck_ * Matrix2d::Identity();
+    resistance.moment = trial;
+    resistance.by_psi = stuck_ * Axes().asDiagonal();
     return resistance;
   }
   // Slipping, it turns with the way and grows no more.
-  const Vector2d along = trial / size;
-  resistance.moment.head<2>() = slip_moment_ * along;
-  resistance.by_psi.topLeftCorner<2, 2>() =
-      stuck_ * slip_moment_ / size * (Matrix2d::Identity() - along * along.transpose());
+  const Vector3d along = trial / size;
+  resistance.moment = slip_moment_ * along;
+  resistance.by_psi =
+      stuck_ * slip_moment_ / size * (Matrix3d(Axes().asDiagonal()) - along * along.transpose());
   return resistance;
 }
 
@@ -40,7 +39,7 @@ double ClampFriction::Potential(const Vector3d& psi) const {
 }
 
 double ClampFriction::Commit(const Vector3d& psi) {
-  const Vector2d trial = Trial(psi);
+  const Vector3d trial = Trial(psi);
   const double size = trial.norm();
   if (size <= slip_moment_) return 0;
   const double slipped = (size - slip_moment_) / stuck_;

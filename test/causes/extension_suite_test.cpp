@@ -36,6 +36,8 @@ const std::vector<Example>& Examples() {
       {"clamp_damping", "{b: {torsion: 1.0e-6}}", ""},
       {"clamp_friction", "{a: {stuck: 0.5, slip_moment: 0.002, spring: 0.3}}",
        "{a: {stuck: 0, slip_moment: 0.002, spring: 0}}"},
+      {"clamp_friction", "{a_torsion: {stuck: 2, slip_moment: 0.001, spring: 3}}",
+       "{a_torsion: {stuck: 0, slip_moment: 0.001, spring: 0}}"},
       {"clamp_play", "{b: {gap: 0.01, stiffness: 0.5}}", "{b: {gap: 0, stiffness: 0.5}}"},
       {"contact", "{plane: {azimuth: 0, elevation: 0, offset: -0.003}, stiffness: 300}",
        "{plane: {azimuth: 0, elevation: 0, offset: -0.003}, stiffness: 0}"},
@@ -198,8 +200,9 @@ TEST_P(ExtensionSuite, HasTangentsThatAreItsStressesDerivatives) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ExtensionSuite, testing::ValuesIn(Examples()),
-                         [](const auto& info) { return info.param.name; });
+INSTANTIATE_TEST_SUITE_P(All, ExtensionSuite, testing::ValuesIn(Examples()), [](const auto& info) {
+  return info.param.name + "_" + std::to_string(info.index);
+});
 
 }  // namespace
 }  // namespace cosserat_cable

@@ -101,6 +101,35 @@ TEST(ExperimentSimulationTest, ATorsionalPendulumFollowsEquations12And13) {
             kBetweenSamples * delta, Fine().elements, Fine().dt});
 }
 
+// Coulomb: 2 slip_moment/(GJ/L) each half swing, however far it turns: a swing of 4 rad is more
+// than half a turn to each side.
+TEST(ExperimentSimulationTest, ADiscWhoseBearingRubsLosesTheSameInEverySwing) {
+  constexpr double kInertia = 2e-5, kSlipMoment = 1.6e-4, kStuck = 8;
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = kInertia;
+  specimen.cable.eta_GJ = 0;
+  specimen.cable.extensions.push_back({"clamp_friction",
+                                       {{{"b_torsion.stuck", kStuck},
+                                         {"b_torsion.slip_moment", kSlipMoment},
+                                         {"b_torsion.spring", 0.0}}}});
+  const CableModel& m = specimen.cable;
+  const double k = m.GJ / m.length, drop = 2 * kSlipMoment / k;
+  const double period = 2 * kPi * std::sqrt((kInertia + m.rhoJ() * m.length / 3) / k);
+  for (const double angle : {0.5, 4.0}) {
+    const Experiment experiment = Torsion(kInertia, angle, 4.2 * period, 2001);
+    const RefinedRecord refined = SimulateRefined(experiment, specimen, Fine());
+    ASSERT_TRUE(refined.record.ok) << refined.record.message;
+    const Eigen::VectorXd turned = refined.record.values.col(0);
+    // The bearing's spring gives way by a thousandth of what the wire does.
+    constexpr double kStuckGivesWay = 0.02;
+    for (int half = 1; half <= 8; ++half) {
+      const auto middle = static_cast<Eigen::Index>(half * 0.5 / 4.2 * 2000);
+      const double peak = turned.segment(middle - 60, 120).cwiseAbs().maxCoeff();
+      EXPECT_NEAR(peak, angle - half * drop, kStuckGivesWay * drop * half) << angle << " " << half;
+    }
+  }
+}
+
 TEST(ExperimentSimulationTest, VelocityAndAccelerationAreDerivativesOfThePosition) {
   Experiment experiment = RingDown(0.01, 0.3, 301);
   const double L = CableSpecimen().cable.length;
@@ -279,8 +308,10 @@ TEST(ExperimentSimulationTest, AClampThatLetsTheEndTurnHoldsItTwistedUntilTheRel
   EXPECT_LT(record.values(10, 0), 1.4);
 }
 
-// A moment T a3(L) alone acts on every section of a cable that a disc of no weight is turned on by theta:
-//   i EI w' + T (w - w(L)) = -c sqrt(EI GJ) tau exp(i tau s),  w = x' + i y', tau = theta/L, T = GJ tau
+// A moment T a3(L) alone acts on every section of a cable that a disc of no weight is turned on by
+// theta:
+//   i EI w' + T (w - w(L)) = -c sqrt(EI GJ) tau exp(i tau s),  w = x' + i y', tau = theta/L, T = GJ
+//   tau
 // to the first order in c; its integral is the end's place.
 TEST(ExperimentSimulationTest, ADiscIsTurnedAboutItsOwnAxisWhereBendingIsCoupledToTwist) {
   using Complex = std::complex<double>;
@@ -292,7 +323,8 @@ TEST(ExperimentSimulationTest, ADiscIsTurnedAboutItsOwnAxisWhereBendingIsCoupled
   Specimen specimen = CableSpecimen();
   const CableModel& m = specimen.cable;
   const double L = m.length;
-  experiment.channels = {ChannelAt(L, Quantity::kPosition, 0), ChannelAt(L, Quantity::kPosition, 1)};
+  experiment.channels = {ChannelAt(L, Quantity::kPosition, 0),
+                         ChannelAt(L, Quantity::kPosition, 1)};
   specimen.cable.extensions = {{"bend_twist_coupling", {{{"c1", kCoupling}, {"c2", 0.0}}}}};
   const SimulatedRecord record = SimulateExperiment(experiment, {specimen}, Fine()).front();
   ASSERT_TRUE(record.ok) << record.message;
@@ -301,9 +333,9 @@ TEST(ExperimentSimulationTest, ADiscIsTurnedAboutItsOwnAxisWhereBendingIsCoupled
   const double tau = kTheta / L, beta = m.GJ * tau / m.EI1;
   const Complex amplitude = kCoupling * std::sqrt(m.GJ / m.EI1) * tau / (tau - beta);
   const Complex turned = std::exp(i * (tau - beta) * L);
-  const Complex tip = amplitude * ((std::exp(i * tau * L) - 1.0) / (i * tau) -
-                                   turned * (std::exp(i * beta * L) - 1.0) / (i * beta) -
-                                   L * (1.0 - turned));
+  const Complex tip =
+      amplitude * ((std::exp(i * tau * L) - 1.0) / (i * tau) -
+                   turned * (std::exp(i * beta * L) - 1.0) / (i * beta) - L * (1.0 - turned));
   constexpr double kOfElements = 2e-3;  // the section's turn within an element
   EXPECT_NEAR(record.values(0, 0), tip.real(), kOfElements * std::abs(tip));
   EXPECT_NEAR(record.values(0, 1), tip.imag(), kOfElements * std::abs(tip));

@@ -91,6 +91,23 @@ TEST(SetMistakes, ALawOfAClampThatNoExperimentHas) {
   EXPECT_EQ(folder.Said(), "");
 }
 
+TEST(SetMistakes, TheBearingOfADiscThatNoExperimentHas) {
+  SetFolder folder;
+  const std::string cable =
+      Replaced(kHead, "  EI: 0.0120\n",
+               "  EI: 0.0120\n"
+               "  extensions:\n"
+               "    clamp_friction: {b_torsion: {stuck: 1, slip_moment: 1, spring: 0}}\n");
+  WriteAll(&folder, cable + kRingdown);
+  EXPECT_EQ(folder.Said(), kYaml +
+                               "8: cable.extensions.clamp_friction.b_torsion.slip_moment: got "
+                               "clamp_friction of clamp b, which no experiment has: end b is free "
+                               "or carries a disc; expected none, or an experiment with a clamp "
+                               "at b\n");
+  WriteAll(&folder, cable + kRingdown + kTorsion);
+  EXPECT_EQ(folder.Said(), "");
+}
+
 TEST(SetMistakes, Experiments) {
   EXPECT_EQ(Said("experiments:\n", "experiments: []\nexperimenst:\n"),
             kYaml +

@@ -26,6 +26,7 @@ enum class NumberScale {
   kClampDashpot,      ///< EI/length over the angular frequency of the slowest swing [N m s/rad]
   kCurvature,         ///< the largest change of curvature in the records [1/m]
   kClampMoment,       ///< the largest change of the bending moment at a clamp [N m]
+  kTwistMoment,       ///< the largest change of the twisting moment at clamp a [N m]
   kPeriod,            ///< of the slowest swing [s]
   kFrequency,         ///< of the slowest swing [Hz]
   kLength             ///< the cable's [m]

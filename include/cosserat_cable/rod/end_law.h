@@ -51,6 +51,10 @@ class EndLaw {
   /// Takes that state.
   virtual void Rest(const Eigen::Vector3d& psi) = 0;
 
+  /// Whether it acts about the clamp's a3 alone: such a law stays where a disc takes the clamp's
+  /// place.
+  virtual bool InTorsionOnly() const { return false; }
+
   /// Stored, at the psi of the last Commit or Rest [J].
   virtual double Energy(const Eigen::Vector3d& psi) const = 0;
   /// Of what depends on the rate [W].
