@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cosserat_cable/measurement/w_first.h"
 #include "input_slips.h"
 
 namespace cosserat_cable {
@@ -114,8 +115,7 @@ void AddMotionSlips(const MeasurementSet& set, std::size_t e, std::vector<InputS
       for (Pose& pose : *poses) pose.q = pose.q.conjugate();
     });
     add("with the quaternions of " + of + " beginning with w", 1, [](double, Poses* poses) {
-      for (Pose& pose : *poses)
-        pose.q = Eigen::Quaterniond(pose.q.x(), pose.q.y(), pose.q.z(), pose.q.w());
+      for (Pose& pose : *poses) pose = MeantWithWFirst(pose);
     });
     add("times " + of, 1, Amplify, kLeastOfMotion, kMostOfMotion);
     add("times the displacements in " + of, 1, displaced, kLeastOfMotion, kMostOfMotion);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "attitude_check.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/measurement/measurement_set.h"
 #include "cosserat_cable/measurement/sample_runs.h"
@@ -419,6 +420,8 @@ class ExperimentLooks {
 void CheckPlausibility(const MeasurementSet& set, Problems* problems, Problems* warnings) {
   for (const Experiment& experiment : set.experiments)
     ExperimentLooks(set, experiment, problems, warnings).Check();
+  // With another unit, nothing is where the cable is.
+  if (problems->empty()) CheckAttitudes(set, problems, warnings);
 }
 
 }  // namespace cosserat_cable

@@ -14,6 +14,7 @@
 #include "cosserat_cable/ros/conversions.h"
 #include "diagnostics.h"
 #include "swaying_cable.h"
+#include "upright_watch.h"
 
 namespace cosserat_cable {
 namespace {
@@ -125,6 +126,8 @@ CableEngine::CableEngine(const VehicleModel& vehicle, const BodyMap& bodies,
       vehicle_root_(vehicle.root),
       links_(vehicle, NeededLinks(cables), options_.links),
       threads_(std::make_unique<Threads>(options_.threads)) {
+  if (options_.links.judge)
+    upright_ = std::make_unique<UprightWatch>(options_.gravity_W, vehicle_root_);
   for (const CableModel& model : cables) {
     std::vector<const Body*> obstacles;
     std::vector<std::size_t> frames;
@@ -162,11 +165,13 @@ std::size_t CableEngine::FrameIndex(const std::string& link) const {
 void CableEngine::Ingest(const tf2_msgs::TFMessage& message, bool is_static,
                          const std::string& publisher, std::int64_t recorded) {
   links_.Ingest(message, is_static, publisher, recorded);
+  if (upright_) upright_->Look(links_);
 }
 
 void CableEngine::Ingest(const sensor_msgs::JointState& message, const std::string& publisher,
                          std::int64_t recorded) {
   links_.Ingest(message, publisher, recorded);
+  if (upright_) upright_->Look(links_);
 }
 
 void CableEngine::Finish() {
@@ -374,6 +379,7 @@ Findings CableEngine::AllFindings() const {
     std::move(more.begin(), more.end(), std::back_inserter(findings));
   };
   add(links_.MotionFindings(links_.world()));
+  if (upright_) add(upright_->Report(links_.world()));
   for (const auto& cable : cables_) add(cable->clamps().Report());
   return findings;
 }

@@ -16,8 +16,8 @@
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/vehicle/joint_positions.h"
-#include "cosserat_cable/vehicle/upright_judge.h"
 #include "imu_gravity.h"
+#include "upright_watch.h"
 
 namespace cosserat_cable {
 namespace {
@@ -26,8 +26,6 @@ namespace {
 constexpr std::int64_t kSurveyHistory = 5'000'000'000;  // [ns]
 // What is older is let go of this often: each time costs a walk over all edges.
 constexpr std::uint64_t kDropInterval = 100;  // [messages]
-// How often it is looked whether the vehicle stands upright [ns].
-constexpr std::int64_t kLookInterval = 20'000'000;
 
 std::string Join(const std::vector<std::string>& words) {
   std::string text;
@@ -104,25 +102,11 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   LinkMotionOptions link_options = options.links;
   LinkMotion links(inputs->vehicle, needed, link_options);
   std::uint64_t messages = 0;
-  // Who says that gravity points elsewhere knows what is up.
-  const UprightJudge nothing_seen(options.gravity_W == kGravityDown ? options.gravity_W
-                                                                    : Eigen::Vector3d::Zero());
-  UprightJudge upright = nothing_seen;
-  std::string world;
-  std::int64_t looked = 0;
-  const auto look = [&] {
-    if (std::abs(links.last_stamp() - looked) < kLookInterval) return;
-    looked = links.last_stamp();
-    // Before the first transform above it is known, the vehicle itself is the world.
-    if (links.world() != world) upright = nothing_seen;
-    world = links.world();
-    if (const auto X_WR = links.LatestPose(links.world(), inputs->vehicle.root))
-      upright.Add(links.last_stamp(), X_WR->q);
-  };
+  UprightWatch upright(options.gravity_W, inputs->vehicle.root);
   bags.ForEach(survey.from, survey.to, [&](const BagMessage& message) {
     Feed(message, &links);
     if (++messages % kDropInterval == 0) links.DropBefore(links.last_stamp() - kSurveyHistory);
-    look();
+    upright.Look(links);
     return true;
   });
   links.Finish();
@@ -163,7 +147,7 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   survey.findings = links.CoverageFindings(survey.world, &nothing);
   for (Finding& finding : links.MotionFindings(survey.world))
     survey.findings.push_back(std::move(finding));
-  for (Finding& finding : upright.Report(inputs->vehicle.root, survey.world))
+  for (Finding& finding : upright.Report(survey.world))
     survey.findings.push_back(std::move(finding));
   for (Finding& finding : survey.findings) finding.start = links.Start();
   for (const auto& [child, edge] : survey.edges) {

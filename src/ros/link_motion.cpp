@@ -121,16 +121,21 @@ void LinkMotion::UpdateTree() {
   followed_.assign(links_.size(), {});
 }
 
+void LinkMotion::CountIgnored(Source source, const std::string& why) {
+  if (source != Source::kTf && source != Source::kJointStates) return;
+  if (ignored_++ == 0) why_ignored_ = why;
+}
+
 LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std::string& child,
                                            Source source, const Pose& X_PC) {
   const auto found = edges_.find(child);
   if (found == edges_.end()) {
     if (IsAbove(child, parent)) {
-      warnings_.Count("frame '" + child + "' would be above itself",
-                      Event("",
-                            "'" + parent + " -> " + child + "' by " + ToString(source) +
-                                " closes a loop of frames and is ignored",
-                            "record it the other way round, or rename one of the frames"));
+      const std::string why = "'" + parent + " -> " + child + "' by " + ToString(source) +
+                              " closes a loop of frames and is ignored";
+      const std::string remedy = "record it the other way round, or rename one of the frames";
+      warnings_.Count("frame '" + child + "' would be above itself", Event("", why, remedy));
+      CountIgnored(source, why + ": " + remedy);
       return nullptr;
     }
     Edge* edge = &edges_[child];
@@ -156,11 +161,10 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
         "recording";
     if (edge->source == Source::kUrdf && !vehicle_.HasLink(parent))
       remedy += "; what moves the vehicle has to move its root '" + vehicle_.root + "'";
-    warnings_.Count("frame '" + child + "' has two parents",
-                    Event("",
-                          "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" +
-                              parent + "' by " + ToString(source) + " is ignored",
-                          remedy));
+    const std::string why = "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" +
+                            parent + "' by " + ToString(source) + " is ignored";
+    warnings_.Count("frame '" + child + "' has two parents", Event("", why, remedy));
+    CountIgnored(source, "frame '" + child + "' has two parents, " + why + ": " + remedy);
     return nullptr;
   }
   if (edge->source == source) return edge;
@@ -255,6 +259,12 @@ std::vector<std::string> LinkMotion::Missing() const {
     reasons.insert("no transform of " + ToString(Source::kTf) + " can be used, of " +
                    std::to_string(unusable_) + " (the first: " + why_unusable_ +
                    "): publish poses that are known only");
+  const bool any_moves = std::any_of(edges_.begin(), edges_.end(), [](const auto& edge) {
+    return edge.second.samples > 0 || edge.second.is_constant;
+  });
+  if (ignored_ > 0 && !any_moves)
+    reasons.insert("nothing moves the vehicle: all " + std::to_string(ignored_) +
+                   " samples are ignored (the first: " + why_ignored_ + ")");
   for (const std::string& link : links_) {
     const std::vector<Step> way = Ascend(link);
     const std::string root = way.empty() ? link : way.back().parent;

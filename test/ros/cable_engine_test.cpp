@@ -90,11 +90,16 @@ class CableEngineTest : public testing::Test {
         transform.header.stamp = ToRosTime(stamp);
         transform.transform.rotation.w = 1;
       }
+      if (upside_down_) {
+        message.transforms[0].transform.rotation.w = 0;
+        message.transforms[0].transform.rotation.x = 1;
+      }
       engine->Ingest(message, false);
       engine->Advance(&out_);
     }
   }
 
+  bool upside_down_ = false;  // half a turn about x
   std::string folder_;
   VehicleModel vehicle_;
   BodyMap bodies_;
@@ -219,6 +224,33 @@ TEST_F(CableEngineTest, AFailedCableStopsAndTheOthersGoOn) {
   for (const auto& [name, messages] : out_.telemetry) {
     for (const ApexTelemetry& m : messages) EXPECT_TRUE(std::isfinite(m.position_x)) << name;
   }
+}
+
+TEST_F(CableEngineTest, AVehicleUpsideDownIsTold) {
+  const auto kinds_told = [&](bool judge) {
+    options_.links.judge = judge;
+    out_.diagnostics.clear();
+    CableEngine engine(vehicle_, bodies_, {MakeCable("c", "base")}, options_);
+    Feed(&engine, kStart, 401);
+    std::string told;
+    for (const Finding& finding : engine.AllFindings()) told += finding.kind + " ";
+    std::string console;
+    for (const std::string& news : engine.TakeNews()) console += news + "\n";
+    bool in_diagnostics = false;
+    for (const auto& value : out_.diagnostics.back().status.front().values)
+      in_diagnostics |= value.value.find("hangs upside down") != std::string::npos;
+    const bool expected = told.find("upside_down") != std::string::npos;
+    EXPECT_EQ(in_diagnostics, expected);
+    EXPECT_EQ(console.find("hangs upside down") != std::string::npos, expected) << console;
+    return told;
+  };
+  EXPECT_EQ(kinds_told(true).find("upside_down"), std::string::npos);
+  upside_down_ = true;
+  EXPECT_NE(kinds_told(true).find("upside_down"), std::string::npos);
+  // Where the recording was judged before, it is told already.
+  EXPECT_EQ(kinds_told(false).find("upside_down"), std::string::npos);
+  options_.gravity_W = {0, 0, 9.81};
+  EXPECT_EQ(kinds_told(true).find("upside_down"), std::string::npos);
 }
 
 TEST_F(CableEngineTest, OptionsOutOfRangeAreListed) {

@@ -261,6 +261,25 @@ class Recordings(MadeRecordings):
                     "/tf is ignored), at 103.000 s (3.000 s after the start): a frame has one parent"):
                 self.assertIn(words, text, tool)
 
+    def test_a_recording_that_is_ignored_as_a_whole_is_refused(self):
+        # A plate that is fixed to the vehicle is said to carry it, and a frame to carry the plate.
+        plated = self.CART.replace('</robot>', """<link name="plate"/>
+            <joint name="bolts" type="fixed"><parent link="base_link"/><child link="plate"/></joint>
+            </robot>""")
+        for name, text in (('v.urdf', plated), ('c.yaml', self.ARCH % 'plate')):
+            with open(self.path(name), 'w') as target:
+                target.write(text)
+        for parent, child, why in (
+                ('plate', 'base_link', "'plate -> base_link' by /tf closes a loop of frames and is "
+                 "ignored: record it the other way round"),
+                ('odom', 'plate', "frame 'plate' has two parents, 'base_link' by the URDF is kept, "
+                 "'odom' by /tf is ignored")):
+            bag = self.write_messages('ignored.bag', [
+                ('/tf', 100 + 0.01 * i, self.moved(parent, child, 100 + 0.01 * i, 0.02 * i))
+                for i in range(300)])
+            self.refused('nothing moves the vehicle: all 300 samples are ignored (the first: ' + why,
+                         vehicle=self.path('v.urdf'), cables=self.path('c.yaml'), bag=bag)
+
     def test_recordings_in_a_loop_are_told(self):
         messages = self.rolling() + [(topic, stamp + 4, message)
                                      for topic, stamp, message in self.rolling()]

@@ -58,6 +58,8 @@ const Body* FindBody(const BodyMap& bodies, const CableModel& cable, const std::
 /// Links whose motion the cables need: clamps, references, and those to avoid; each once.
 std::vector<std::string> NeededLinks(const std::vector<CableModel>& cables);
 
+class UprightWatch;
+
 class CableEngine {
  public:
   /// `vehicle` and `bodies` outlive this. A link that a cable avoids and that has no body never
@@ -120,6 +122,7 @@ class CableEngine {
   std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
   std::string vehicle_root_;
   LinkMotion links_;
+  std::unique_ptr<UprightWatch> upright_;  // null where the recording was judged before
   std::vector<std::unique_ptr<SwayingCable>> cables_;
   std::unique_ptr<CableFleet> fleet_;  // of their simulations
   std::vector<Group> groups_;          // of the fleet

@@ -234,6 +234,8 @@ class LinkMotion {
   /// The edge, made where it is new; null where this source does not count for it.
   Edge* AcceptSource(const std::string& parent, const std::string& child, Source source,
                      const Pose& X_PC);
+  /// A sample that may move a frame, of an edge that has no place.
+  void CountIgnored(Source source, const std::string& why);
   void IngestJoint(const JointModel& joint, double position, std::int64_t stamp);
   const JointModel* JointAbove(const std::string& link) const;
   // The way up from a frame: along edges seen, and along the URDF's joints where none was.
@@ -266,6 +268,8 @@ class LinkMotion {
   std::set<std::string> unknown_joints_;
   std::uint64_t usable_ = 0, unusable_ = 0;  // transforms that may move
   std::string why_unusable_;                 // the first one
+  std::uint64_t ignored_ = 0;                // samples that the tree of frames has no place for
+  std::string why_ignored_;                  // the first one
 
   std::optional<RecordingJudge> judge_;
   std::string publisher_;
