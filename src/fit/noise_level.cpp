@@ -12,9 +12,9 @@ constexpr int kOrder = 6;  // of the differences
 // Fewer differences than this are too few to tell jumps from noise.
 constexpr int kFewestDifferences = 30;
 // From one distance to twice that, correlated noise shows sqrt(2) times as much at most
-// (exponential correlation), and by chance more; a resolved signal 64 times. Where it grows by less
-// than this, the signal is sqrt(3)/64 of what was seen before at most.
-constexpr double kMostOfColour = 2;
+// (exponential correlation), and of a short record by chance up to 2.5 times; a resolved signal 64
+// times. Where it grows by less than this, the signal is sqrt(8)/64 of what was seen before at most.
+constexpr double kMostOfColour = 3;
 // Standard deviations by which noise must be larger at a distance to count as correlated.
 constexpr double kBeyondChanceOfColour = 2.0;
 // Degrees of freedom of sixth differences of white noise, by sample: 3.2 of them are worth one for

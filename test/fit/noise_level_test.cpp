@@ -105,6 +105,21 @@ TEST(NoiseLevelTest, CorrelatedNoiseThatAFitLeavesIsNeverTakenForHalfOfIt) {
   }
 }
 
+TEST(NoiseLevelTest, CorrelatedNoiseOfAShortRecordIsNotTakenForAThirdOfIt) {
+  // Neighbours among 120 samples show 0.36 of it, and by chance a quarter. What a distance shows
+  // counts only where the next one confirms it: the last one, of 8 samples, never does.
+  constexpr double kLeast = 1.0 / 3;
+  constexpr int kMostTooSmall = 2;
+  int too_small = 0;
+  for (std::uint32_t seed = 1; seed <= 200; ++seed) {
+    Experiment experiment = OneChannel(120, 0.01);
+    const Eigen::VectorXd swing = Swing(experiment);
+    experiment.record.values.col(0) = swing + Noise(120, 0.75, seed);
+    too_small += LevelOf(experiment, swing).sd < kLeast * kNoise;
+  }
+  EXPECT_LE(too_small, kMostTooSmall);
+}
+
 TEST(NoiseLevelTest, FewerThanFourSamplesAPeriodTellNothing) {
   Experiment experiment = OneChannel(kSamples, 1.0 / 11);
   experiment.record.values.col(0) = Swing(experiment) + Noise(kSamples, 0, 4);
