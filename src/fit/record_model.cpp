@@ -21,7 +21,9 @@ constexpr int kElementsTried[] = {kElements, 24, 32, 40, 64, 80, 160};
 // far a motion turns its phase in a step [rad]; within bounds.
 constexpr double kStepOfInterval = 0.25, kStepOfMotion = 0.1;
 constexpr double kSmallestStep = 1e-3, kLargestStep = 2e-2;  // [s]
-constexpr double kFinest = 1e-4;                             // [s]
+// In a step so large the phase is wrong by a hundredth already: no bound keeps a step there.
+constexpr double kMostOfMotion = 0.3;
+constexpr double kFinest = 1e-4;  // [s]
 // Rms of what the steps do, in parts of a channel's range, that asks for finer ones. What they do
 // in a few samples only, at a shock, does not: those count less.
 constexpr double kTooFar = 0.02;
@@ -66,7 +68,9 @@ double StepFor(const Record& record) {
     if (motion > 0) fastest = std::max(fastest, std::sqrt(rate / motion));
   }
   const double of_motion = fastest > 0 ? kStepOfMotion / fastest : kLargestStep;
-  return std::clamp(std::max(kStepOfInterval * MedianInterval(record.t), of_motion), kSmallestStep,
+  const double smallest =
+      fastest > 0 ? std::min(kSmallestStep, kMostOfMotion / fastest) : kSmallestStep;
+  return std::clamp(std::max(kStepOfInterval * MedianInterval(record.t), of_motion), smallest,
                     kLargestStep);
 }
 
