@@ -231,7 +231,7 @@ bool CableEngine::Start(OutputSink* sink) {
   return true;
 }
 
-void CableEngine::Advance(OutputSink* sink) {
+void CableEngine::Advance(OutputSink* sink, const std::function<bool()>& stop) {
   if (links_.clear_count() != seen_clears_) {
     seen_clears_ = links_.clear_count();
     if (started_) {
@@ -253,6 +253,7 @@ void CableEngine::Advance(OutputSink* sink) {
     steps_ += block.size();
     if (steps_ / kDropInterval != drops) links_.DropBefore(now_);
     CollectTold();
+    if (stop && stop()) break;
   }
   MeasureClearances();
   Deliver(sink);
@@ -360,6 +361,13 @@ void CableEngine::Deliver(OutputSink* sink) {
 bool CableEngine::AnyFailed() const {
   return std::any_of(cables_.begin(), cables_.end(),
                      [](const auto& c) { return !c->summary().failure.empty(); });
+}
+
+std::vector<std::string> CableEngine::Stopped() const {
+  std::vector<std::string> names;
+  for (const auto& cable : cables_)
+    if (cable->failed()) names.push_back(cable->model().name);
+  return names;
 }
 
 std::vector<std::string> CableEngine::TakeNews() {

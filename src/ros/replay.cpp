@@ -73,7 +73,7 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
   const std::int64_t end = std::min(survey.to, inputs.bags->end_time());
   Progress progress(static_cast<double>(end - survey.first_step) * 1e-9, "s simulated");
   const auto advance = [&] {
-    engine->Advance(sink);
+    engine->Advance(sink, Interrupted);
     Say(engine);
     progress.Update(static_cast<double>(engine->now() - survey.first_step) * 1e-9);
   };

@@ -50,6 +50,7 @@ class CableEngine::SwayingCable {
   const CableModel& model() const { return simulation_.model(); }
   CableSimulation* simulation() { return &simulation_; }
   CableSummary summary() const;
+  bool failed() const { return failed_; }  ///< and has not settled since
   const ClampJudge& clamps() const { return clamps_; }
   diagnostic_msgs::DiagnosticStatus Diagnostics() const;
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -75,8 +76,9 @@ class CableEngine {
   void Finish();
 
   /// Steps the cables as far as the motion of all links is final. Steps are on multiples of dt.
-  /// The first call that finds all links known settles the cables there.
-  void Advance(OutputSink* sink);
+  /// The first call that finds all links known settles the cables there. `stop` is asked now and
+  /// then: true leaves the rest to the next call.
+  void Advance(OutputSink* sink, const std::function<bool()>& stop = {});
 
   /// Whether markers are sent when they are due: not where there is no time for them.
   void SendMarkers(bool send) { send_markers_ = send; }
@@ -86,6 +88,9 @@ class CableEngine {
   const LinkMotion& links() const { return links_; }
   /// True where a cable has failed at any time.
   bool AnyFailed() const;
+  std::size_t cable_count() const { return cables_.size(); }
+  /// Names of the cables that have failed and not settled anew since.
+  std::vector<std::string> Stopped() const;
   /// Sentences to be said to the user, each once.
   std::vector<std::string> TakeNews();
   /// What cannot be, of the recording, the samples and the cables' clamps, until now.
