@@ -28,6 +28,9 @@ constexpr std::size_t kBlock = 32;  // [steps]
 // What may pile up while a link is still missing.
 constexpr std::int64_t kWaitingHistory = 10'000'000'000;  // [ns]
 
+// More than the motion curve waits for [s].
+constexpr double kWorthTelling = 0.5;
+
 std::int64_t Period(double rate) {
   return rate > 0 ? static_cast<std::int64_t>(std::llround(1e9 / rate)) : 0;
 }
@@ -210,9 +213,13 @@ bool CableEngine::Start(OutputSink* sink) {
                                 links_.world() != vehicle_root_ ||
                                 links_.last_stamp() - begin > kWorldGrace;
   if (!world_is_certain) return false;
-  const std::int64_t start = (begin + dt_ - 1) / dt_ * dt_;
+  const std::int64_t start = std::max((begin + dt_ - 1) / dt_ * dt_, not_before_);
   if (start > ready) return false;
   now_ = start;
+  // A localisation that begins later corrects the frame; where nothing is known above the vehicle,
+  // its own motion may still begin.
+  if (links_.world() != vehicle_root_) links_.KeepWorld();
+  world_ = links_.world();
   Instant rest;
   Follow(now_, &rest);
   threads_->arena.execute([&] {
@@ -231,15 +238,33 @@ bool CableEngine::Start(OutputSink* sink) {
   return true;
 }
 
-void CableEngine::Advance(OutputSink* sink, const std::function<bool()>& stop) {
+// Where the motion that comes has nothing to do with what was.
+void CableEngine::Restart() {
+  std::string reason;
   if (links_.clear_count() != seen_clears_) {
     seen_clears_ = links_.clear_count();
-    if (started_) {
-      ++resets_;
-      news_.push_back("time ran backwards: the cables settle anew");
+    reason = links_.clear_reason();
+    not_before_ = 0;
+    const double lost = static_cast<double>(links_.cleared_until() - now_) * 1e-9;
+    if (started_ && lost > kWorthTelling) {
+      char text[80];
+      std::snprintf(text, sizeof text, "; the last %.2f s before were not simulated", lost);
+      reason += text;
     }
-    started_ = false;
+  } else if (started_ && links_.world() != world_) {
+    reason = "the vehicle moves in '" + links_.world() + "' from now on, not in '" + world_ + "'";
+    not_before_ = now_;
   }
+  if (reason.empty()) return;
+  if (started_) {
+    ++resets_;
+    news_.push_back(reason + ": the cables settle anew");
+  }
+  started_ = false;
+}
+
+void CableEngine::Advance(OutputSink* sink, const std::function<bool()>& stop) {
+  Restart();
   if (!started_ && !Start(sink)) return;
   std::int64_t begin = 0, ready = 0;
   if (!links_.Range(&begin, &ready)) return;

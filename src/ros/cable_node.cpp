@@ -117,6 +117,9 @@ std::vector<std::string> Reasons(const CableEngine& engine, const MotionTopics& 
   bool nothing = false;
   for (const Finding& finding : links.CoverageFindings(links.world(), &nothing))
     reasons.push_back(finding.ToString());
+  if (reasons.empty() && !engine.started())
+    reasons.push_back("for a second of stamps, in which a frame above '" + links.world() +
+                      "' may come, which would be the inertial one");
   return reasons;
 }
 

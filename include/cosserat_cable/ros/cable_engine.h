@@ -105,6 +105,7 @@ class CableEngine {
   struct Group;
   struct Threads;
 
+  void Restart();
   bool Start(OutputSink* sink);
   void Follow(std::int64_t time, Instant* instant);
   void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
@@ -124,6 +125,7 @@ class CableEngine {
   EngineOptions options_;
   std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
   std::string vehicle_root_;
+  std::string world_;  // in which the cables settled
   LinkMotion links_;
   std::vector<std::unique_ptr<SwayingCable>> cables_;
   std::unique_ptr<CableFleet> fleet_;  // of their simulations
@@ -136,6 +138,7 @@ class CableEngine {
   bool started_ = false;
   bool finished_ = false;
   std::int64_t now_ = 0;
+  std::int64_t not_before_ = 0;  // the cables settle anew [ns]
   std::uint64_t steps_ = 0;
   std::uint64_t seen_clears_ = 0;
   std::uint64_t resets_ = 0;
