@@ -28,9 +28,6 @@ constexpr std::size_t kBlock = 32;  // [steps]
 // What may pile up while a link is still missing.
 constexpr std::int64_t kWaitingHistory = 10'000'000'000;  // [ns]
 
-// More than the motion curve waits for [s].
-constexpr double kWorthTelling = 0.5;
-
 std::int64_t Period(double rate) {
   return rate > 0 ? static_cast<std::int64_t>(std::llround(1e9 / rate)) : 0;
 }
@@ -246,7 +243,7 @@ void CableEngine::Restart() {
     reason = links_.clear_reason();
     not_before_ = 0;
     const double lost = static_cast<double>(links_.cleared_until() - now_) * 1e-9;
-    if (started_ && lost > kWorthTelling) {
+    if (started_ && lost > 0) {
       char text[80];
       std::snprintf(text, sizeof text, "; the last %.2f s before were not simulated", lost);
       reason += text;

@@ -16,6 +16,7 @@
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/conversions.h"
+#include "master_watch.h"
 #include "node_sink.h"
 
 namespace cosserat_cable {
@@ -53,15 +54,15 @@ class DescriptionFile {
   std::string path_;
 };
 
-Inputs LoadNodeInputs(const NodeOptions& options, Problems* problems) {
+// `description`: of robot_description, where that is the vehicle.
+Inputs LoadNodeInputs(const NodeOptions& options, std::string* description, Problems* problems) {
   if (!options.inputs.vehicle.empty()) return LoadInputs(options.inputs, options.engine, problems);
-  std::string description;
-  if (!ros::param::get("robot_description", description)) {
+  if (!ros::param::get("robot_description", *description)) {
     problems->Add("", 0, "vehicle",
                   "neither the parameter ~vehicle (a URDF file) nor robot_description is set");
     return {};
   }
-  const DescriptionFile file(description);
+  const DescriptionFile file(*description);
   InputPaths paths = options.inputs;
   paths.vehicle = file.path();
   return LoadInputs(paths, options.engine, problems);
@@ -160,9 +161,10 @@ bool SimulateRest(CableEngine* engine, NodeSink* sink) {
 }  // namespace
 
 ExitCode RunNode(const NodeOptions& options, Problems problems) {
+  std::string description;
   // A missing path is a problem already.
   const Inputs inputs =
-      options.inputs.cables.empty() ? Inputs() : LoadNodeInputs(options, &problems);
+      options.inputs.cables.empty() ? Inputs() : LoadNodeInputs(options, &description, &problems);
   if (!problems.empty()) {
     for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
     return kExitBadInput;
@@ -207,6 +209,7 @@ ExitCode RunNode(const NodeOptions& options, Problems problems) {
   CatchInterrupts();
 
   const Clock::time_point start = Clock::now();
+  MasterWatch master(description);
   const auto say_news = [&engine] {
     for (const std::string& news : engine.TakeNews()) ROS_WARN_STREAM(news);
   };
@@ -220,6 +223,7 @@ ExitCode RunNode(const NodeOptions& options, Problems problems) {
       const std::string hint = GravityHint(options.engine.gravity_W, engine.links().world());
       if (!hint.empty()) ROS_WARN_STREAM_ONCE(hint);
     }
+    master.Look();
     sink.Watch(engine, [&] { return Reasons(engine, topics); });
   }
 

@@ -14,8 +14,8 @@ using diagnostic_msgs::DiagnosticStatus;
 constexpr double kReportPeriod = 1;
 // Transforms that stop for less are a gap of the motion, which the telemetry marks [s].
 constexpr double kHeldAfter = 1;
-// A recording with a gap in each second would fill the console otherwise.
-constexpr int kMostSaid = 10;
+// A recording with a gap in each second would fill the console otherwise [lines].
+constexpr std::size_t kMostSaid = 10;
 
 double SecondsSince(NodeSink::Clock::time_point time) {
   return std::chrono::duration<double>(NodeSink::Clock::now() - time).count();
@@ -126,7 +126,10 @@ void NodeSink::Report(const std::vector<std::string>& reasons) {
   for (const std::string& reason : reasons) AddValue("missing", reason, &status);
   if (state_ == State::kWaiting && reasons != said_reasons_) {
     said_reasons_ = reasons;
-    for (const std::string& reason : reasons) ROS_WARN_STREAM("waiting: " << reason);
+    for (std::size_t i = 0; i < reasons.size() && i < kMostSaid; ++i)
+      ROS_WARN_STREAM("waiting: " << reasons[i]);
+    if (reasons.size() > kMostSaid)
+      ROS_WARN_STREAM("waiting: " << reasons.size() - kMostSaid << " more reasons in /diagnostics");
   }
   message.status.push_back(status);
   TopicSink::Diagnostics(message);

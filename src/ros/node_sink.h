@@ -47,7 +47,7 @@ class NodeSink : public TopicSink {
 
   struct Cable {
     bool held = false;
-    int said = 0;  // how often
+    std::size_t said = 0;  // how often
   };
 
   Pace pace_;

@@ -2,8 +2,10 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -72,11 +74,14 @@ std::int64_t Jump(const BagMessage& message, std::int64_t latest) {
 bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
   const BagSurvey& survey = *inputs.survey;
   const std::int64_t end = std::min(survey.to, inputs.bags->end_time());
-  Progress progress(static_cast<double>(end - survey.first_step) * 1e-9, "s simulated");
+  const double duration = static_cast<double>(end - survey.first_step) * 1e-9;
+  Progress progress(duration, "s simulated");
   const auto advance = [&] {
     engine->Advance(sink, Interrupted);
     Say(engine);
-    progress.Update(static_cast<double>(engine->now() - survey.first_step) * 1e-9);
+    // Stamps may jump to where no recording goes.
+    progress.Update(
+        std::min(static_cast<double>(engine->now() - survey.first_step) * 1e-9, duration));
   };
   std::int64_t advance_at = survey.from + kReadAhead;
   inputs.bags->ForEach(survey.from, survey.to, [&](BagMessage message) {

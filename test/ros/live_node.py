@@ -12,6 +12,7 @@ import rospy
 from cosserat_cable.msg import ApexTelemetry
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
+from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 from tf2_msgs.msg import TFMessage
 
@@ -60,6 +61,11 @@ def pose(parent, child, stamp, y, quaternion=(0, 0, 0, 1)):
     return message
 
 
+def program():
+    """The node, also in a build folder within the package, which rosrun overlooks."""
+    return roslib.packages.find_node('cosserat_cable', 'cable_node')[0]
+
+
 class LiveNode:
     """A cable_node in a namespace of its own."""
 
@@ -86,9 +92,8 @@ class LiveNode:
             rospy.Subscriber('/%s/cables/%s/apex' % (name, cable), ApexTelemetry,
                              self.on_telemetry, callback_args=cable, queue_size=10000)
         rospy.Subscriber('/diagnostics', DiagnosticArray, self.on_diagnostics)
-        program = roslib.packages.find_node('cosserat_cable', 'cable_node')[0]
         self.process = subprocess.Popen(
-            [program, '__ns:=/' + name] + ['_%s:=%s' % pair for pair in sorted(values.items())],
+            [program(), '__ns:=/' + name] + ['_%s:=%s' % pair for pair in sorted(values.items())],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
             env=dict(os.environ, **(environment or {})))
         self.readers = [threading.Thread(target=self.read, args=(stream,), daemon=True)
@@ -160,22 +165,25 @@ class LiveNode:
         with self.changed:
             return [m.header.stamp.to_sec() for m in self.telemetry.get(cable, [])]
 
-    def drive(self, seconds, start=None, change=None, period=1 / RATE):
-        """Shakes the body by 2 mm at 2 Hz for so long, in real time. Stamps count from `start`, the clock
-        where there is none. `change(t, messages)` returns what is sent instead."""
+    def drive(self, seconds, start=None, change=None, period=1 / RATE, speed=1, clock=None):
+        """Shakes the body by 2 mm at 2 Hz for so long, `speed` times as fast as the clock on the wall. Stamps
+        count from `start`, the time where there is none. `change(t, messages)` returns what is sent instead.
+        `clock` publishes the time. Returns the stamp at which it may go on."""
         begin = time.time()
         first = begin if start is None else start
         for i in range(int(round(seconds / period))):
             t = i * period
-            stamp = first + t
             phase = (t * 2) % 1
             shake = 0.002 * (4 * abs(phase - 0.5) - 1)
-            messages = [pose('odom', 'base_link', stamp, shake), pose('base_link', 'arm', stamp, 0)]
+            messages = [pose('odom', 'base_link', first + t, shake),
+                        pose('base_link', 'arm', first + t, 0)]
             if change:
                 messages = change(t, messages)
+            if clock:
+                clock.publish(Clock(rospy.Time.from_sec(first + t)))
             if messages:
                 self.tf.publish(TFMessage(messages))
-            time.sleep(max(0, begin + t + period - time.time()))
+            time.sleep(max(0, begin + (t + period) / speed - time.time()))
         return first + seconds
 
     def stop(self, number=signal.SIGINT):
