@@ -72,6 +72,8 @@ std::vector<std::string> EngineOptions::Check() const {
           "dt to 60 s");
   require(clearance_reach > 0 && clearance_reach <= 10, "clearance_reach", clearance_reach,
           "more than 0 and at most 10 m");
+  require(settle_again >= 0 && settle_again <= 3600, "settle_again", settle_again,
+          "0 (never) to 3600 s");
   require(threads >= 0 && threads <= 256, "threads", threads, "0 (one per core) to 256");
   require(links.max_gap > 0 && links.max_gap <= 10, "max_gap", links.max_gap,
           "more than 0 and at most 10 s");
@@ -265,6 +267,7 @@ void CableEngine::Advance(OutputSink* sink, const std::function<bool()>& stop) {
   if (!started_ && !Start(sink)) return;
   std::int64_t begin = 0, ready = 0;
   if (!links_.Range(&begin, &ready)) return;
+  SettleAgain();
   std::vector<Instant> block, next;
   FollowBlock(now_, ready, &next);
   while (!next.empty()) {
@@ -279,6 +282,18 @@ void CableEngine::Advance(OutputSink* sink, const std::function<bool()>& stop) {
   }
   MeasureClearances();
   Deliver(sink);
+}
+
+// What made a cable fail may be over: a pose that was reset, a clamp that was torn away.
+void CableEngine::SettleAgain() {
+  Instant now;
+  for (const auto& cable : cables_) {
+    if (!cable->MaySettleAgain(now_)) continue;
+    if (now.frames.empty()) Follow(now_, &now);
+    cable->Settle(now, links_.world());
+    if (!cable->failed())
+      news_.push_back("cable '" + cable->model().name + "' settled anew at " + StampText(now_));
+  }
 }
 
 // While the cables sway through a block, the motion of the next is followed, the clearances of the

@@ -149,12 +149,13 @@ bool SimulateRest(CableEngine* engine, NodeSink* sink) {
   const Clock::time_point start = Clock::now();
   engine->Finish();
   AdvanceTimed(engine, sink, [start] { return SecondsSince(start) > kLastSeconds; });
-  const std::int64_t last = engine->links().last_stamp();
-  const double left = engine->started() ? static_cast<double>(last - engine->now()) * 1e-9 : 0;
+  std::int64_t begin = 0, ready = 0;
+  // Where a link's transforms stopped, there is nothing to be simulated behind them.
+  if (!engine->started() || !engine->links().Range(&begin, &ready)) return true;
+  const double left = static_cast<double>(ready - engine->now()) * 1e-9;
   if (left <= kLatency) return true;
-  ROS_WARN_STREAM(
-      "stopped " << left << " s before the newest transform (" << StampText(last)
-                 << "): the machine could not keep up, and what came last was not simulated");
+  ROS_WARN_STREAM("stopped " << left << " s before the end of the motion at " << StampText(ready)
+                             << ": the machine could not keep up, and the rest was not simulated");
   return false;
 }
 

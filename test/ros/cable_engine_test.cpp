@@ -126,6 +126,37 @@ TEST_F(CableEngineTest, AFailedCableStopsAndTheOthersGoOn) {
   }
 }
 
+TEST_F(CableEngineTest, AFailedCableSettlesAnewWhereThatIsAskedFor) {
+  options_.settle_again = 1;
+  CableEngine engine(vehicle_, bodies_, {MakeCable("torn", "other"), MakeCable("whole", "base")},
+                     options_);
+  // Away at 1e5 m/s for a moment, and back again: at 0.5 s, and at 2 s.
+  Feed(&engine, kStart, 1500, [](double t) {
+    return t > 0.5 && t < 0.6 ? 1e5 * (t - 0.5) : t > 2 && t < 2.1 ? 1e5 * (t - 2) : 0.0;
+  });
+  engine.Finish();
+  engine.Advance(&out_);
+  const auto times = [&] {
+    std::vector<double> seconds;
+    for (const ApexTelemetry& m : out_.telemetry.at("torn"))
+      seconds.push_back(1e-9 * static_cast<double>(ToNanoseconds(m.header.stamp) - kStart));
+    return seconds;
+  }();
+  // A second after it failed, two seconds after it failed again.
+  std::vector<double> begins = {times.front()};
+  for (std::size_t i = 1; i < times.size(); ++i)
+    if (times[i] - times[i - 1] > 0.1) begins.push_back(times[i]);
+  ASSERT_EQ(begins.size(), 3u);
+  EXPECT_NEAR(begins[1], 1.5, 0.1);
+  EXPECT_NEAR(begins[2], 4, 0.1);
+  EXPECT_GT(times.back(), 7.4);
+  EXPECT_EQ(out_.telemetry.at("whole").size(), 1499u);
+  EXPECT_TRUE(engine.Stopped().empty());
+  // What has happened stays told.
+  EXPECT_TRUE(engine.AnyFailed());
+  EXPECT_FALSE(engine.MakeSummary().cables[0].failure.empty());
+}
+
 TEST_F(CableEngineTest, OptionsOutOfRangeAreListed) {
   options_.dt = 1;
   options_.amplitude_window = NAN;

@@ -60,7 +60,7 @@ class LiveClock(unittest.TestCase):
         self.assertEqual(code, 130, node.text())
         last = max(node.stamps('lead'), default=START)
         self.assertLess(last, now - 0.5)
-        self.assertIn('s before the newest transform', node.text('stderr'))
+        self.assertIn('s before the end of the motion', node.text('stderr'))
         # What was simulated is there.
         self.assertIn('amplitude', node.text('stdout'))
 

@@ -37,6 +37,9 @@ struct EngineOptions {
   double clearance_reach = 0.05;             ///< bodies farther away count as none [m]
   MarkerStyle markers;
   std::string dump_directory = ".";  ///< where a failed cable's state is written
+  /// After so long a cable that has failed settles anew, and after twice as long each time that it
+  /// fails again [s]; 0: it stays as it is, until time or frames jump.
+  double settle_again = 0;
   int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
   Findings known;  ///< of the recording, where it was judged before; told along with the run's own
@@ -107,6 +110,7 @@ class CableEngine {
 
   void Restart();
   bool Start(OutputSink* sink);
+  void SettleAgain();
   void Follow(std::int64_t time, Instant* instant);
   void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
   void Sway(std::size_t group, const std::vector<Instant>& block);
