@@ -15,10 +15,9 @@ constexpr char kHelp[] =
     "cable_node: simulates the cables of a vehicle live, as launch/replay.launch starts it.\n"
     "Private parameters: ~vehicle (URDF file; default: robot_description), ~cables (YAML file),\n"
     "~use_joint_states, ~world_frame, ~hold_joints, ~max_gap, ~smooth, ~dt, ~telemetry_rate,\n"
-    "~marker_rate, ~amplitude_window, ~settle_again, ~threads, ~json, ~gravity (\"X,Y,Z\" in the "
-    "inertial frame\n"
+    "~marker_rate, ~amplitude_window, ~threads, ~json, ~gravity (\"X,Y,Z\" in the inertial frame\n"
     "[m/s^2]), ~joint_states and ~tf (topics), ~tf_prefix, ~use_record_times (times of arrival,\n"
-    "not stamps).\n"
+    "not stamps), ~settle_again (a cable that stopped does so after so long [s]; 0: never).\n"
     "Topics: cables/NAME/apex, cables/NAME/markers, cables/markers, /diagnostics.\n";
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <ros/param.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -27,9 +28,10 @@ constexpr std::uint32_t kInputQueue = 20'000;
 constexpr double kSpinSeconds = 0.02;
 // So long the cables are advanced before messages are taken again [s].
 constexpr double kSliceSeconds = 0.2;
-// What is left to be simulated when the node is stopped gets so long, and what is published then so
-// long to leave [s].
-constexpr double kLastSeconds = 1, kFlushSeconds = 0.3;
+// What is left to be simulated when the node is stopped gets so long [s].
+constexpr double kLastSeconds = 1;
+// What is published then gets so long to leave, and a message so much more, up to the most [s].
+constexpr double kFlushSeconds = 0.3, kFlushPerMessage = 1e-4, kLongestFlush = 0.7;
 // Input that is left unsimulated is worth telling where it is more than motion curves wait for [s].
 constexpr double kLatency = 0.5;
 
@@ -228,6 +230,7 @@ ExitCode RunNode(const NodeOptions& options, Problems problems) {
     sink.Watch(engine, [&] { return Reasons(engine, topics); });
   }
 
+  const std::uint64_t published = sink.telemetry_count();
   const bool is_whole = SimulateRest(&engine, &sink);
   say_news();
   Summary summary = engine.MakeSummary();
@@ -239,7 +242,8 @@ ExitCode RunNode(const NodeOptions& options, Problems problems) {
               static_cast<unsigned long long>(sink.telemetry_count()));
   std::fflush(stdout);
   // What is still in the publishers' queues is sent by a thread of its own.
-  ros::WallDuration(kFlushSeconds).sleep();
+  const auto last = static_cast<double>(sink.telemetry_count() - published);
+  ros::WallDuration(std::min(kFlushSeconds + kFlushPerMessage * last, kLongestFlush)).sleep();
   if (!options.json.empty() && !WriteTextFile(options.json, summary.ToJson())) {
     ROS_ERROR_STREAM(options.json << ": could not be written");
     return kExitFileTrouble;

@@ -1,6 +1,7 @@
 #include "node_sink.h"
 
 #include <ros/console.h>
+#include <ros/init.h>
 
 #include "cosserat_cable/ros/conversions.h"
 #include "diagnostics.h"
@@ -27,7 +28,8 @@ void NodeSink::Telemetry(const std::string& cable, const ApexTelemetry& message)
   pace_.Delivered((ros::Time::now() - message.header.stamp).toSec(), Clock::now());
   if (cables_[cable].held != static_cast<bool>(message.held))
     SayHeld(cable, message.held, message.header.stamp);
-  ++telemetry_count_;
+  // Nothing leaves any more once ROS has shut down.
+  if (ros::ok()) ++telemetry_count_;
   TopicSink::Telemetry(cable, message);
 }
 

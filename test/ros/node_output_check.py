@@ -3,7 +3,9 @@
 end, also after SIGTERM and SIGINT, what came of it."""
 import signal
 import unittest
+import xmlrpc.client
 
+import rosgraph
 import rospy
 import rostest
 from live_node import LEADS, RATE, TELEMETRY_RATE, LiveNode
@@ -51,6 +53,17 @@ class NodeOutput(unittest.TestCase):
         self.assertIn('amplitude', node.text('stdout'))
         # The motion curve waits for later samples, and the end is not cut off for it.
         self.assertGreater(node.stamps('lead')[-1], end - 2 / RATE - 1 / TELEMETRY_RATE)
+
+    def test_rosnode_kill_leaves_the_summary_too(self):
+        node = self.start('killed')
+        node.wait_until_listening()
+        node.drive(0.5)
+        uri = rosgraph.Master('/node_output').lookupNode(node.name)
+        xmlrpc.client.ServerProxy(uri).shutdown('/node_output', 'a test')
+        self.assertEqual(node.process.wait(3), 0, node.text())
+        for reader in node.readers:
+            reader.join(5)
+        self.assertIn('amplitude', node.text('stdout'))
 
     def test_all_of_bad_input_is_on_stderr(self):
         node = self.start('bad', cables=LEADS.replace('EI: 2.5e-3', 'EI: -1', 1).replace(
