@@ -40,7 +40,7 @@ struct EngineOptions {
   /// After so long a cable that has failed settles anew, and after twice as long each time that it
   /// fails again [s]; 0: it stays as it is, until time or frames jump.
   double settle_again = 0;
-  int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
+  int threads = 0;  ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
   Findings known;  ///< of the recording, where it was judged before; told along with the run's own
 

@@ -97,6 +97,9 @@ class LinkMotion {
     EdgeSmoother* smoother = nullptr;
   };
 
+  /// No recording or robot rests without a transform for longer: more is another time [ns].
+  static constexpr std::int64_t kForwardJump = 60'000'000'000;
+
   /// `links`: those whose motion will be asked for. `vehicle` outlives this.
   LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
              LinkMotionOptions options);
@@ -173,10 +176,6 @@ class LinkMotion {
   std::int64_t last_stamp() const { return last_stamp_; }  ///< the latest of all samples [ns]
   Warnings& warnings() { return warnings_; }
   const Warnings& warnings() const { return warnings_; }
-
- public:
-  /// No recording or robot rests without a transform for longer: more is another time [ns].
-  static constexpr std::int64_t kForwardJump = 60'000'000'000;
 
  private:
   /// From which on a clock is said to have been set forward [ns].
