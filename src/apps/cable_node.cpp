@@ -1,11 +1,13 @@
 // The live node.
 #include "cosserat_cable/ros/cable_node.h"
 
-#include <ros/console.h>
 #include <ros/init.h>
+#include <ros/master.h>
 
+#include <cstdio>
 #include <iostream>
 #include <string>
+#include <utility>
 
 namespace {
 
@@ -15,7 +17,7 @@ constexpr char kHelp[] =
     "~use_joint_states, ~world_frame, ~hold_joints, ~max_gap, ~smooth, ~dt, ~telemetry_rate,\n"
     "~marker_rate, ~amplitude_window, ~threads, ~json, ~gravity (\"X,Y,Z\" in the inertial frame\n"
     "[m/s^2]), ~joint_states and ~tf (topics), ~tf_prefix, ~use_record_times (times of arrival,\n"
-    "not stamps).\n"
+    "not stamps), ~settle_again (a cable that stopped does so after so long [s]; 0: never).\n"
     "Topics: cables/NAME/apex, cables/NAME/markers, cables/markers, /diagnostics.\n";
 
 }  // namespace
@@ -27,15 +29,15 @@ int main(int argc, char** argv) {
       return 0;
     }
   }
-  ros::init(argc, argv, "cable_node");
+  // Lines at once, also through a pipe.
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);
+  ros::init(argc, argv, "cable_node", ros::init_options::NoSigintHandler);
+  if (!ros::master::check())
+    std::cerr << "waiting for the ROS master at " << ros::master::getURI() << std::endl;
+  // With the last handle ROS shuts down, and all that is said after that is lost.
+  const ros::NodeHandle node;
   cosserat_cable::Problems problems;
   const cosserat_cable::NodeOptions options =
       cosserat_cable::ReadNodeOptions(ros::NodeHandle("~"), &problems);
-  if (!problems.empty()) {
-    for (const cosserat_cable::Problem& problem : problems.all()) {
-      ROS_FATAL_STREAM(problem.ToString());
-    }
-    return cosserat_cable::kExitBadInput;
-  }
-  return cosserat_cable::RunNode(options);
+  return cosserat_cable::RunNode(options, std::move(problems));
 }

@@ -73,6 +73,8 @@ std::vector<std::string> EngineOptions::Check() const {
           "dt to 60 s");
   require(clearance_reach > 0 && clearance_reach <= 10, "clearance_reach", clearance_reach,
           "more than 0 and at most 10 m");
+  require(settle_again >= 0 && settle_again <= 3600, "settle_again", settle_again,
+          "0 (never) to 3600 s");
   require(threads >= 0 && threads <= 256, "threads", threads, "0 (one per core) to 256");
   require(links.max_gap > 0 && links.max_gap <= 10, "max_gap", links.max_gap,
           "more than 0 and at most 10 s");
@@ -215,9 +217,13 @@ bool CableEngine::Start(OutputSink* sink) {
                                 links_.world() != vehicle_root_ ||
                                 links_.last_stamp() - begin > kWorldGrace;
   if (!world_is_certain) return false;
-  const std::int64_t start = (begin + dt_ - 1) / dt_ * dt_;
+  const std::int64_t start = std::max((begin + dt_ - 1) / dt_ * dt_, not_before_);
   if (start > ready) return false;
   now_ = start;
+  // A localisation that begins later corrects the frame; where nothing is known above the vehicle,
+  // its own motion may still begin.
+  if (links_.world() != vehicle_root_) links_.KeepWorld();
+  world_ = links_.world();
   Instant rest;
   Follow(now_, &rest);
   threads_->arena.execute([&] {
@@ -236,18 +242,37 @@ bool CableEngine::Start(OutputSink* sink) {
   return true;
 }
 
-void CableEngine::Advance(OutputSink* sink) {
+// Where the motion that comes has nothing to do with what was.
+void CableEngine::Restart() {
+  std::string reason;
   if (links_.clear_count() != seen_clears_) {
     seen_clears_ = links_.clear_count();
-    if (started_) {
-      ++resets_;
-      news_.push_back("time ran backwards: the cables settle anew");
+    reason = links_.clear_reason();
+    not_before_ = 0;
+    const double lost = static_cast<double>(links_.cleared_until() - now_) * 1e-9;
+    if (started_ && lost > 0) {
+      char text[80];
+      std::snprintf(text, sizeof text, "; the last %.2f s before were not simulated", lost);
+      reason += text;
     }
-    started_ = false;
+  } else if (started_ && links_.world() != world_) {
+    reason = "the vehicle moves in '" + links_.world() + "' from now on, not in '" + world_ + "'";
+    not_before_ = now_;
   }
+  if (reason.empty()) return;
+  if (started_) {
+    ++resets_;
+    news_.push_back(reason + ": the cables settle anew");
+  }
+  started_ = false;
+}
+
+void CableEngine::Advance(OutputSink* sink, const std::function<bool()>& stop) {
+  Restart();
   if (!started_ && !Start(sink)) return;
   std::int64_t begin = 0, ready = 0;
   if (!links_.Range(&begin, &ready)) return;
+  SettleAgain();
   std::vector<Instant> block, next;
   FollowBlock(now_, ready, &next);
   while (!next.empty()) {
@@ -258,9 +283,22 @@ void CableEngine::Advance(OutputSink* sink) {
     steps_ += block.size();
     if (steps_ / kDropInterval != drops) links_.DropBefore(now_);
     CollectTold();
+    if (stop && stop()) break;
   }
   MeasureClearances();
   Deliver(sink);
+}
+
+// What made a cable fail may be over: a pose that was reset, a clamp that was torn away.
+void CableEngine::SettleAgain() {
+  Instant now;
+  for (const auto& cable : cables_) {
+    if (!cable->MaySettleAgain(now_)) continue;
+    if (now.frames.empty()) Follow(now_, &now);
+    cable->Settle(now, links_.world());
+    if (!cable->failed())
+      news_.push_back("cable '" + cable->model().name + "' settled anew at " + StampText(now_));
+  }
 }
 
 // While the cables sway through a block, the motion of the next is followed, the clearances of the
@@ -365,6 +403,13 @@ void CableEngine::Deliver(OutputSink* sink) {
 bool CableEngine::AnyFailed() const {
   return std::any_of(cables_.begin(), cables_.end(),
                      [](const auto& c) { return !c->summary().failure.empty(); });
+}
+
+std::vector<std::string> CableEngine::Stopped() const {
+  std::vector<std::string> names;
+  for (const auto& cable : cables_)
+    if (cable->failed()) names.push_back(cable->model().name);
+  return names;
 }
 
 std::vector<std::string> CableEngine::TakeNews() {

@@ -8,14 +8,17 @@
 #include <ros/param.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
+#include <functional>
 
+#include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/input/gravity.h"
 #include "cosserat_cable/ros/conversions.h"
-#include "diagnostics.h"
-#include "pace.h"
+#include "master_watch.h"
+#include "node_sink.h"
 
 namespace cosserat_cable {
 namespace {
@@ -23,73 +26,18 @@ namespace {
 // Bursts of `rosbag play -r 5` and the time that a slow step takes fit in [messages].
 constexpr std::uint32_t kInputQueue = 20'000;
 constexpr double kSpinSeconds = 0.02;
-// Without news from the simulation, the reason is published this often [s].
-constexpr double kWaitingPeriod = 1;
+// So long the cables are advanced before messages are taken again [s].
+constexpr double kSliceSeconds = 0.2;
+// What is left to be simulated when the node is stopped gets so long [s].
+constexpr double kLastSeconds = 1;
+// What is published then gets so long to leave, and a message so much more, up to the most [s].
+constexpr double kFlushSeconds = 0.3, kFlushPerMessage = 1e-4, kLongestFlush = 0.7;
+// Input that is left unsimulated is worth telling where it is more than motion curves wait for [s].
+constexpr double kLatency = 0.5;
 
-using Clock = std::chrono::steady_clock;
+using Clock = NodeSink::Clock;
 using TfEvent = ros::MessageEvent<const tf2_msgs::TFMessage>;
 using JointEvent = ros::MessageEvent<const sensor_msgs::JointState>;
-
-// Adds what only the live node knows to the engine's diagnostics, and watches how late it is.
-class NodeSink : public TopicSink {
- public:
-  using TopicSink::TopicSink;
-
-  void Telemetry(const std::string& cable, const ApexTelemetry& message) override {
-    pace_.Delivered((ros::Time::now() - message.header.stamp).toSec(), Clock::now());
-    TopicSink::Telemetry(cable, message);
-  }
-
-  void Diagnostics(const diagnostic_msgs::DiagnosticArray& message) override {
-    const double latency = (ros::Time::now() - message.header.stamp).toSec();
-    pace_.Reached(ToNanoseconds(message.header.stamp), Clock::now());
-    const Pace::Report pace = pace_.Take();
-    diagnostic_msgs::DiagnosticArray extended = message;
-    diagnostic_msgs::DiagnosticStatus status;
-    status.name = "cosserat_cable: node";
-    status.hardware_id = "none";
-    status.level = pace_.behind() ? diagnostic_msgs::DiagnosticStatus::WARN
-                                  : diagnostic_msgs::DiagnosticStatus::OK;
-    status.message = pace_.behind() ? "behind the clock: markers are left out" : "running";
-    AddValue("latency [s]", latency, &status);
-    AddValue("worst latency [s]", pace.worst_latency, &status);
-    AddValue("real-time factor", pace.real_time_factor, &status);
-    AddValue("peak memory [bytes]", PeakMemory(), &status);
-    extended.status.push_back(status);
-    TopicSink::Diagnostics(extended);
-    last_ = last_news_ = Clock::now();
-    ROS_INFO_ONCE("cables are %.2f s behind the clock: the motion curve waits for later samples",
-                  latency);
-  }
-
-  Pace* pace() { return &pace_; }
-  double SecondsSinceLast() const { return SecondsSince(last_); }
-  /// Why nothing moves: `reasons` before the start; after it, that no input came.
-  void ReportWaiting(bool started, const std::vector<std::string>& reasons) {
-    diagnostic_msgs::DiagnosticArray message;
-    message.header.stamp = ros::Time::now();
-    diagnostic_msgs::DiagnosticStatus status;
-    status.name = "cosserat_cable: node";
-    status.hardware_id = "none";
-    status.level = diagnostic_msgs::DiagnosticStatus::WARN;
-    status.message = started ? "no new motion: the recording ended, or transforms stopped"
-                             : "waiting for transforms";
-    if (started) AddValue("without new motion [s]", SecondsSince(last_news_), &status);
-    for (const std::string& reason : reasons) AddValue("missing", reason, &status);
-    message.status.push_back(status);
-    TopicSink::Diagnostics(message);
-    last_ = Clock::now();
-  }
-
- private:
-  static double SecondsSince(Clock::time_point time) {
-    return std::chrono::duration<double>(Clock::now() - time).count();
-  }
-
-  Pace pace_;
-  Clock::time_point last_ = Clock::now();       // message
-  Clock::time_point last_news_ = Clock::now();  // from the simulation
-};
 
 // The parameter robot_description as a file, for the one reader of vehicles; removed at the end.
 class DescriptionFile {
@@ -108,15 +56,15 @@ class DescriptionFile {
   std::string path_;
 };
 
-Inputs LoadNodeInputs(const NodeOptions& options, Problems* problems) {
+// `description`: of robot_description, where that is the vehicle.
+Inputs LoadNodeInputs(const NodeOptions& options, std::string* description, Problems* problems) {
   if (!options.inputs.vehicle.empty()) return LoadInputs(options.inputs, options.engine, problems);
-  std::string description;
-  if (!ros::param::get("robot_description", description)) {
+  if (!ros::param::get("robot_description", *description)) {
     problems->Add("", 0, "vehicle",
                   "neither the parameter ~vehicle (a URDF file) nor robot_description is set");
     return {};
   }
-  const DescriptionFile file(description);
+  const DescriptionFile file(*description);
   InputPaths paths = options.inputs;
   paths.vehicle = file.path();
   return LoadInputs(paths, options.engine, problems);
@@ -148,19 +96,78 @@ std::vector<std::string> UnreadTopics(const MotionTopics& topics) {
   return sentences;
 }
 
+double SecondsSince(Clock::time_point time) {
+  return std::chrono::duration<double>(Clock::now() - time).count();
+}
+
 // Physics and telemetry are never left out; markers are, while there is no time for them.
-void AdvanceTimed(CableEngine* engine, NodeSink* sink) {
+void AdvanceTimed(CableEngine* engine, NodeSink* sink, const std::function<bool()>& stop) {
   engine->SendMarkers(!sink->pace()->behind());
   sink->pace()->Begin(engine->started() ? engine->now() : 0, Clock::now());
-  engine->Advance(sink);
+  engine->Advance(sink, stop);
   sink->pace()->Reached(engine->now(), Clock::now());
+}
+
+// Why nothing moves.
+std::vector<std::string> Reasons(const CableEngine& engine, const MotionTopics& topics) {
+  const LinkMotion& links = engine.links();
+  std::vector<std::string> reasons = links.Missing();
+  if (!reasons.empty()) {
+    for (const auto& more : {links.Advice(), UnreadTopics(topics)})
+      reasons.insert(reasons.end(), more.begin(), more.end());
+    return reasons;
+  }
+  bool nothing = false;
+  for (const Finding& finding : links.CoverageFindings(links.world(), &nothing))
+    reasons.push_back(finding.ToString());
+  if (reasons.empty() && !engine.started())
+    reasons.push_back("for a second of stamps, in which a frame above '" + links.world() +
+                      "' may come, which would be the inertial one");
+  return reasons;
+}
+
+void SayStart(const NodeOptions& options, const Inputs& inputs) {
+  const EngineOptions& engine = options.engine;
+  ROS_INFO_STREAM(
+      "vehicle: " << (options.inputs.vehicle.empty() ? "robot_description" : options.inputs.vehicle)
+                  << ", root '" << inputs.vehicle.root << "'; inertial frame: "
+                  << (engine.links.world_frame.empty() ? "the one above all"
+                                                       : "'" + engine.links.world_frame + "'")
+                  << "; gravity " << engine.gravity_W.transpose() << " m/s^2");
+  ROS_INFO_STREAM("step " << 1e3 * engine.dt << " ms; telemetry " << engine.telemetry_rate
+                          << " Hz, markers " << engine.marker_rate << " Hz; transforms of "
+                          << engine.links.topics.tf
+                          << (options.use_joint_states ? ", " + engine.links.topics.joint_states
+                                                       : std::string()));
+  for (const CableModel& cable : inputs.cables.cables)
+    ROS_INFO_STREAM("cable '" << cable.name << "': '" << cable.a.link << "' to '" << cable.b.link
+                              << "', " << cable.length << " m, " << cable.elements
+                              << " elements, avoids " << cable.avoid.size() << " links");
+  ROS_INFO_STREAM(inputs.cables.cables.size() << " cables wait for the transforms of their links");
+}
+
+// The curves wait for samples that will not come any more; true where all was simulated.
+bool SimulateRest(CableEngine* engine, NodeSink* sink) {
+  const Clock::time_point start = Clock::now();
+  engine->Finish();
+  AdvanceTimed(engine, sink, [start] { return SecondsSince(start) > kLastSeconds; });
+  std::int64_t begin = 0, ready = 0;
+  // Where a link's transforms stopped, there is nothing to be simulated behind them.
+  if (!engine->started() || !engine->links().Range(&begin, &ready)) return true;
+  const double left = static_cast<double>(ready - engine->now()) * 1e-9;
+  if (left <= kLatency) return true;
+  ROS_WARN_STREAM("stopped " << left << " s before the end of the motion at " << StampText(ready)
+                             << ": the machine could not keep up, and the rest was not simulated");
+  return false;
 }
 
 }  // namespace
 
-ExitCode RunNode(const NodeOptions& options) {
-  Problems problems;
-  const Inputs inputs = LoadNodeInputs(options, &problems);
+ExitCode RunNode(const NodeOptions& options, Problems problems) {
+  std::string description;
+  // A missing path is a problem already.
+  const Inputs inputs =
+      options.inputs.cables.empty() ? Inputs() : LoadNodeInputs(options, &description, &problems);
   if (!problems.empty()) {
     for (const Problem& problem : problems.all()) ROS_FATAL_STREAM(problem.ToString());
     return kExitBadInput;
@@ -200,46 +207,49 @@ ExitCode RunNode(const NodeOptions& options) {
         }),
         ros::VoidConstPtr(), hints);
   }
-  ROS_INFO_STREAM(names.size() << " cables wait for the transforms of their links");
+  SayStart(options, inputs);
+  // From here on there is something to be kept.
+  CatchInterrupts();
 
   const Clock::time_point start = Clock::now();
-  while (ros::ok()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kSpinSeconds));
-    const bool was_behind = sink.pace()->behind();
-    AdvanceTimed(&engine, &sink);
-    if (sink.pace()->behind() != was_behind) {
-      ROS_WARN_STREAM((was_behind ? "on time again: markers are back"
-                                  : "cannot keep up with the clock: markers are left out"));
-    }
+  MasterWatch master(description);
+  const auto say_news = [&engine] {
     for (const std::string& news : engine.TakeNews()) ROS_WARN_STREAM(news);
+  };
+  while (ros::ok() && !Interrupted()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kSpinSeconds));
+    const Clock::time_point now = Clock::now();
+    AdvanceTimed(&engine, &sink,
+                 [now] { return Interrupted() || SecondsSince(now) > kSliceSeconds; });
+    say_news();
     if (engine.started()) {
       const std::string hint = GravityHint(options.engine.gravity_W, engine.links().world());
       if (!hint.empty()) ROS_WARN_STREAM_ONCE(hint);
     }
-    if (sink.SecondsSinceLast() > kWaitingPeriod) {
-      std::vector<std::string> reasons = engine.links().Missing();
-      if (!reasons.empty()) {
-        for (const auto& more : {engine.links().Advice(), UnreadTopics(topics)})
-          reasons.insert(reasons.end(), more.begin(), more.end());
-      } else {
-        bool nothing = false;
-        const LinkMotion& links = engine.links();
-        for (const Finding& finding : links.CoverageFindings(links.world(), &nothing))
-          reasons.push_back(finding.ToString());
-      }
-      sink.ReportWaiting(engine.started(), reasons);
-    }
+    master.Look();
+    sink.Watch(engine, [&] { return Reasons(engine, topics); });
   }
 
+  const std::uint64_t published = sink.telemetry_count();
+  const bool is_whole = SimulateRest(&engine, &sink);
+  say_news();
   Summary summary = engine.MakeSummary();
-  summary.wall_time = std::chrono::duration<double>(Clock::now() - start).count();
+  summary.wall_time = SecondsSince(start);
   summary.peak_memory = PeakMemory();
-  // rosout is gone by now.
+  // To whoever reads the console; rosout may be gone by now.
   std::fputs(summary.ToText().c_str(), stdout);
+  std::printf("published %llu messages of telemetry\n",
+              static_cast<unsigned long long>(sink.telemetry_count()));
+  std::fflush(stdout);
+  // What is still in the publishers' queues is sent by a thread of its own.
+  const auto last = static_cast<double>(sink.telemetry_count() - published);
+  ros::WallDuration(std::min(kFlushSeconds + kFlushPerMessage * last, kLongestFlush)).sleep();
   if (!options.json.empty() && !WriteTextFile(options.json, summary.ToJson())) {
+    ROS_ERROR_STREAM(options.json << ": could not be written");
     return kExitFileTrouble;
   }
-  return engine.AnyFailed() ? kExitFailed : kExitDone;
+  if (engine.AnyFailed()) return kExitFailed;
+  return is_whole ? kExitDone : kExitInterrupted;
 }
 
 }  // namespace cosserat_cable

@@ -11,8 +11,6 @@
 namespace cosserat_cable {
 namespace {
 
-// What was rounded, or measured anew, is the same pose [m], [rad].
-constexpr double kSameTranslation = 1e-3, kSameRotation = 2e-3;
 // A tree deeper than this has a cycle.
 constexpr std::size_t kMaxDepth = 1000;
 
@@ -83,19 +81,6 @@ std::vector<LinkMotion::Step> LinkMotion::Ascend(const std::string& frame) const
   return way;
 }
 
-bool LinkMotion::IsAbove(const std::string& ancestor, const std::string& frame) const {
-  // Edges form no loop, joints do not either, and both together end at the latest with all of them.
-  std::string child = frame;
-  for (std::size_t depth = 0; depth <= edges_.size() + joint_above_.size(); ++depth) {
-    if (child == ancestor) return true;
-    const auto edge = edges_.find(child);
-    const JointModel* joint = JointAbove(child);
-    if (edge == edges_.end() && joint == nullptr) return false;
-    child = edge != edges_.end() ? edge->second.parent : joint->parent;
-  }
-  return true;
-}
-
 void LinkMotion::UpdateTree() {
   relevant_.clear();
   std::set<std::string> roots;
@@ -121,100 +106,6 @@ void LinkMotion::UpdateTree() {
   followed_.assign(links_.size(), {});
 }
 
-void LinkMotion::CountIgnored(Source source, const std::string& why) {
-  if (source != Source::kTf && source != Source::kJointStates) return;
-  if (ignored_++ == 0) why_ignored_ = why;
-}
-
-LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std::string& child,
-                                           Source source, const Pose& X_PC) {
-  const auto found = edges_.find(child);
-  if (found == edges_.end()) {
-    if (IsAbove(child, parent)) {
-      const std::string why = "'" + parent + " -> " + child + "' by " + ToString(source) +
-                              " closes a loop of frames and is ignored";
-      const std::string remedy = "record it the other way round, or rename one of the frames";
-      warnings_.Count("frame '" + child + "' would be above itself", Event("", why, remedy));
-      CountIgnored(source, why + ": " + remedy);
-      return nullptr;
-    }
-    Edge* edge = &edges_[child];
-    edge->parent = parent;
-    edge->source = source;
-    UpdateTree();
-    const JointModel* joint = JointAbove(child);
-    if (joint != nullptr && joint->parent != parent && edge->is_followed) {
-      warnings_.Count(
-          "frame '" + child + "' has another parent than in the URDF",
-          Event("",
-                "'" + parent + "' by " + ToString(source) + ", the URDF has '" + joint->parent +
-                    "' (joint '" + joint->name + "'); the recorded one counts",
-                "is this the URDF of the vehicle that was recorded? its joint's limits are not "
-                "judged"));
-    }
-    return edge;
-  }
-  Edge* edge = &found->second;
-  if (edge->parent != parent) {
-    std::string remedy =
-        "a frame has one parent: stop one of the two publishers, or take its transforms out of the "
-        "recording";
-    if (edge->source == Source::kUrdf && !vehicle_.HasLink(parent))
-      remedy += "; what moves the vehicle has to move its root '" + vehicle_.root + "'";
-    const std::string why = "'" + edge->parent + "' by " + ToString(edge->source) + " is kept, '" +
-                            parent + "' by " + ToString(source) + " is ignored";
-    warnings_.Count("frame '" + child + "' has two parents", Event("", why, remedy));
-    CountIgnored(source, "frame '" + child + "' has two parents, " + why + ": " + remedy);
-    return nullptr;
-  }
-  if (edge->source == source) return edge;
-  // What was measured and fixed for this vehicle is better than its drawing.
-  if (edge->source == Source::kUrdf && source == Source::kTfStatic) return edge;
-  // A joint's state and what robot_state_publisher makes of it are one motion: the state itself
-  // counts.
-  if (edge->source == Source::kTf && source == Source::kJointStates) {
-    edge->source = source;
-    return edge;
-  }
-  if (edge->source == Source::kJointStates && source == Source::kTf) return nullptr;
-  // Held at zero by the user's word, whatever the recording says.
-  const JointModel* joint = JointAbove(child);
-  const bool is_held = joint != nullptr && std::count(options_.held_joints.begin(),
-                                                      options_.held_joints.end(), joint->name) > 0;
-  if (edge->source == Source::kUrdf && (source == Source::kJointStates || is_held)) return nullptr;
-  CountContradiction(*edge, child, X_PC, source);
-  return nullptr;
-}
-
-// What is said twice in the same way is no contradiction.
-void LinkMotion::CountContradiction(const Edge& edge, const std::string& child, const Pose& X_PC,
-                                    Source source) {
-  const bool is_fixed = edge.source == Source::kUrdf || edge.source == Source::kTfStatic;
-  const double translation = (X_PC.p - edge.last_pose.p).norm();
-  const double rotation = edge.last_pose.q.angularDistance(X_PC.q);
-  if (is_fixed && translation <= kSameTranslation && rotation <= kSameRotation) return;
-  const std::string kept = ToString(edge.source);
-  std::string detail = kept + " is kept, " + ToString(source) + " is ignored";
-  if (is_fixed) {
-    detail += "; it is " + Printed("%.3g mm", 1e3 * translation) + " and " +
-              Printed("%.3g deg", rotation * 180 / M_PI) + " off";
-  }
-  std::string remedy = "publish it as fixed or as moving, not as both";
-  if (edge.source == Source::kUrdf) {
-    remedy =
-        "is this the URDF of the vehicle that was recorded? publish what was measured of a fixed "
-        "frame on " +
-        ToString(Source::kTfStatic) + ", which counts, or make its joint a moving one";
-  }
-  Warnings::Event event = Event("", detail, remedy, message_stamp_);
-  if (is_fixed) {
-    const bool by_place = translation > kSameTranslation;
-    event.size = by_place ? 1e3 * translation : rotation * 180 / M_PI;
-    event.unit = by_place ? "mm" : "deg";
-  }
-  warnings_.Count("frame '" + child + "' comes from two sources", event);
-}
-
 void LinkMotion::AddFixed(const std::string& parent, const std::string& child, const Pose& X_PC,
                           Source source) {
   Edge* edge = AcceptSource(parent, child, source, X_PC);
@@ -223,6 +114,13 @@ void LinkMotion::AddFixed(const std::string& parent, const std::string& child, c
   edge->last_pose = X_PC;
   if (judge_ && source == Source::kTfStatic && edge->is_followed)
     judge_->AddFixed(parent, child, X_PC, ToString(source), recorded_);
+}
+
+void LinkMotion::KeepWorld() {
+  if (!options_.world_frame.empty() || world_.empty()) return;
+  keeps_world_ = true;
+  options_.world_frame = world_;
+  UpdateTree();
 }
 
 RecordingJudge::Way LinkMotion::WayAboveVehicle() const {

@@ -133,8 +133,9 @@ void LinkMotion::AddSample(const std::string& parent, const std::string& child, 
   }
   if (!early_.empty()) ForgetEarly(child);
   const double interval = static_cast<double>(stamp - edge->last);
-  if (!edge->held && edge->samples >= kKnowsTheRate &&
-      interval > kLongInterval * edge->usual_interval) {
+  const bool is_long =
+      edge->samples >= kKnowsTheRate && interval > kLongInterval * edge->usual_interval;
+  if (!edge->held && (is_long || IsFarAhead(*edge, stamp))) {
     edge->held = sample;
     return;
   }
@@ -187,9 +188,14 @@ void LinkMotion::ResolveHeld(Edge* edge, const std::string& child, const Sample&
   const bool is_habit =
       edge->bad_stamps > kFewBadStamps &&
       static_cast<double>(edge->bad_stamps) > kShareOfHabit * static_cast<double>(edge->samples);
-  if (interval >= kTooClose * usual || (interval > 0 && is_on_time) || is_habit) {
+  const bool is_far = IsFarAhead(*edge, held.stamp);
+  if (interval >= kTooClose * usual || (interval > 0 && is_on_time) || (is_habit && !is_far)) {
     edge->held.reset();
-    Take(edge, child, held);
+    if (is_far && edge->samples > 0) {
+      JumpForward(child, held);
+    } else {
+      Take(edge, child, held);
+    }
     return;
   }
   // Messages may overtake each other.
@@ -198,8 +204,32 @@ void LinkMotion::ResolveHeld(Edge* edge, const std::string& child, const Sample&
   if (interval < 0 && is_on_time) return;
   if (overtook && ++edge->held->overtaken < kOvertaken) return;
   edge->held.reset();
+  const std::int64_t expected = edge->samples > 0 ? edge->last : sample.stamp;
   CountBadStamp(child, edge, held.stamp,
-                static_cast<double>(held.stamp - edge->last) - std::max(usual, 0.0));
+                static_cast<double>(held.stamp - expected) - std::max(usual, 0.0));
+}
+
+// A frame that is sent once in a while is not ahead of the others.
+bool LinkMotion::IsFarAhead(const Edge& edge, std::int64_t stamp) const {
+  return edge.is_followed && newest_followed_ > 0 && stamp - newest_followed_ > kForwardJump;
+}
+
+void LinkMotion::JumpForward(const std::string& child, const Sample& sample) {
+  Warnings::Event event =
+      Event("",
+            "frame '" + child + "' from " + StampText(newest_followed_) + " to " +
+                StampText(sample.stamp),
+            "all starts anew there: was a clock set, or was the recording paused or joined of "
+            "several? what is between is not simulated",
+            newest_followed_);
+  event.size = static_cast<double>(sample.stamp - newest_followed_) * 1e-9;
+  event.unit = "s";
+  Clear();
+  clear_reason_ = "time jumped forward by " + Printed("%.3g s", event.size);
+  warnings_.Count("time jumped forward", event);
+  has_epoch_ = true;
+  epoch_ = sample.stamp;
+  Take(&edges_.at(child), child, sample);
 }
 
 bool LinkMotion::RunsBackwards(const std::string& child, const Edge& edge, const Sample& sample) {
@@ -220,6 +250,7 @@ bool LinkMotion::RunsBackwards(const std::string& child, const Edge& edge, const
   event.size = static_cast<double>(early[0].last - early[0].sample.stamp) * 1e-9;
   event.unit = "s";
   Clear();
+  clear_reason_ = "time ran backwards";
   warnings_.Count("time ran backwards", event);
   for (const Early& first : early) {
     Edge* its_edge = &edges_.at(first.child);
@@ -326,7 +357,9 @@ void LinkMotion::Take(Edge* edge, const std::string& child, const Sample& sample
   edge->last_recorded = sample.recorded;
   ++edge->samples;
   last_stamp_ = std::max(last_stamp_, stamp);
-  if (edge->is_followed) Feed(edge, child, sample);
+  if (!edge->is_followed) return;
+  newest_followed_ = std::max(newest_followed_, stamp);
+  Feed(edge, child, sample);
 }
 
 void LinkMotion::Feed(Edge* edge, const std::string& child, const Sample& sample) {
@@ -502,6 +535,7 @@ void LinkMotion::Finish() {
 }
 
 void LinkMotion::Clear() {
+  cleared_until_ = std::exchange(newest_followed_, 0);
   tree_.Clear();
   if (judge_) judge_->Restart();
   for (auto& [child, smoother] : smoothers_) smoother.Clear();

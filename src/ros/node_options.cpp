@@ -9,6 +9,9 @@
 namespace cosserat_cable {
 namespace {
 
+// Nobody restarts a live node for a pose that was reset [s].
+constexpr double kSettleAgain = 5;
+
 class ParameterReader {
  public:
   ParameterReader(const ros::NodeHandle& node, Problems* problems)
@@ -71,6 +74,8 @@ NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problem
   reader.Read("clearance_reach", "a number [m]", &engine.clearance_reach);
   reader.Read("curvature_scale", "a number [1/m]", &engine.markers.curvature_scale);
   reader.Read("threads", "a whole number (0: one per core)", &engine.threads);
+  engine.settle_again = kSettleAgain;
+  reader.Read("settle_again", "a number [s]", &engine.settle_again);
   reader.Read("dump_directory", "a folder", &engine.dump_directory);
   ReadGravityParameter(parameters, problems, &engine.gravity_W);
   reader.Read("joint_states", "a topic", &engine.links.topics.joint_states);

@@ -2,11 +2,12 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <optional>
 
 #include "bag_file.h"
@@ -55,32 +56,36 @@ std::string ConfigurationHead(const ReplayOptions& options, const BagSurvey& sur
 }
 
 // So much of the recording is read before the cables follow: their threads then have enough to do
-// [ns]. Less where time runs backwards, for what is not simulated by then is lost.
+// [ns]. Less where time runs backwards or jumps, for what is not simulated by then is lost.
 constexpr std::int64_t kReadAhead = 200'000'000;
 
-std::int64_t EarliestStamp(const BagMessage& message) {
-  if (message.joints) return ToNanoseconds(message.joints->header.stamp);
-  std::int64_t earliest = std::numeric_limits<std::int64_t>::max();
+// By how much a message's stamps are off the latest of all before, either way [ns].
+std::int64_t Jump(const BagMessage& message, std::int64_t latest) {
+  if (latest == 0) return 0;
+  if (message.joints) return std::abs(ToNanoseconds(message.joints->header.stamp) - latest);
+  std::int64_t jump = 0;
   if (message.tf && !message.is_static)
     for (const auto& transform : message.tf->transforms)
-      earliest = std::min(earliest, ToNanoseconds(transform.header.stamp));
-  return earliest;
+      jump = std::max(jump, std::abs(ToNanoseconds(transform.header.stamp) - latest));
+  return jump;
 }
 
 // Feeds the recording through the engine into the bag; false where it was interrupted.
 bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
   const BagSurvey& survey = *inputs.survey;
   const std::int64_t end = std::min(survey.to, inputs.bags->end_time());
-  Progress progress(static_cast<double>(end - survey.first_step) * 1e-9, "s simulated");
+  const double duration = static_cast<double>(end - survey.first_step) * 1e-9;
+  Progress progress(duration, "s simulated");
   const auto advance = [&] {
-    engine->Advance(sink);
+    engine->Advance(sink, Interrupted);
     Say(engine);
-    progress.Update(static_cast<double>(engine->now() - survey.first_step) * 1e-9);
+    // Stamps may jump to where no recording goes.
+    progress.Update(
+        std::min(static_cast<double>(engine->now() - survey.first_step) * 1e-9, duration));
   };
   std::int64_t advance_at = survey.from + kReadAhead;
   inputs.bags->ForEach(survey.from, survey.to, [&](BagMessage message) {
-    if (message.time >= advance_at ||
-        EarliestStamp(message) < engine->links().last_stamp() - kReadAhead) {
+    if (message.time >= advance_at || Jump(message, engine->links().last_stamp()) > kReadAhead) {
       advance();
       advance_at = message.time + kReadAhead;
     }

@@ -91,7 +91,9 @@ std::string Summary::ToText() const {
               "number of elements\n";
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
-  if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
+  if (resets > 0)
+    text << "the cables settled anew " << resets
+         << " times: time ran backwards or jumped, or frames changed\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";
   if (smooth > 0) text << "links smoothed by a low-pass of " << Format("%g", smooth) << " Hz\n";
   for (const std::string& warning : warning_sentences) text << "warning: " << warning << "\n";

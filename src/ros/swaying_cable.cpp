@@ -13,6 +13,13 @@
 #include "state_dump.h"
 
 namespace cosserat_cable {
+namespace {
+
+// Neither the console nor the disk, which takes a state each time, is filled by a cable that fails
+// again and again.
+constexpr int kMostDoublings = 10;
+
+}  // namespace
 
 CableEngine::SwayingCable::SwayingCable(const CableModel& model, std::vector<const Body*> obstacles,
                                         Frames frames, std::size_t index,
@@ -90,9 +97,17 @@ void CableEngine::SwayingCable::Take(const StepOutcome& outcome, const Instant& 
   Record(then);
 }
 
+bool CableEngine::SwayingCable::MaySettleAgain(std::int64_t time) const {
+  if (!failed_ || !(options_.settle_again > 0)) return false;
+  const double wait = std::ldexp(options_.settle_again, std::min(failures_ - 1, kMostDoublings));
+  return static_cast<double>(time - failed_at_) * 1e-9 >= wait;
+}
+
 void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t time,
                                      const std::string& world) {
   failed_ = true;
+  failed_at_ = time;
+  ++failures_;
   message_ = message;
   const std::string path =
       options_.dump_directory + "/" + model().name + "_" + std::to_string(time) + ".failed.yaml";

@@ -50,10 +50,13 @@ class CableEngine::SwayingCable {
   const CableModel& model() const { return simulation_.model(); }
   CableSimulation* simulation() { return &simulation_; }
   CableSummary summary() const;
+  bool failed() const { return failed_; }  ///< and has not settled since
   const ClampJudge& clamps() const { return clamps_; }
   diagnostic_msgs::DiagnosticStatus Diagnostics() const;
 
   void Settle(const Instant& now, const std::string& world);
+  /// Whether it failed long enough before `time` [ns].
+  bool MaySettleAgain(std::int64_t time) const;
   /// What it is to be stepped to; null where it has failed. Valid until asked again.
   const Surroundings* Then(const Instant& then);
   /// What came of that. `from` [ns]: where the step began.
@@ -89,6 +92,8 @@ class CableEngine::SwayingCable {
   ClampJudge clamps_;
   Eigen::Vector3d rest_ = Eigen::Vector3d::Zero();  // of the apex, in the reference link [m]
   bool failed_ = false;
+  std::int64_t failed_at_ = 0;  // [ns]
+  int failures_ = 0;
   bool shown_ = false;  // its markers are in the picture
   std::string message_;
   std::uint64_t held_ = 0;  // telemetry samples

@@ -68,6 +68,15 @@ void MotionTree::Restart(const Edge& edge) {
   if (edge) edge.frame_->curve = PoseCurve(max_gap_);
 }
 
+void MotionTree::Detach(const std::string& child) {
+  ++revision_;
+  const auto found = frames_.find(child);
+  if (found == frames_.end()) return;
+  found->second.parent = nullptr;
+  found->second.fixed = false;
+  found->second.curve = PoseCurve(max_gap_);
+}
+
 void MotionTree::Finish() {
   ++revision_;
   for (auto& [name, frame] : frames_) frame.curve.Finish();

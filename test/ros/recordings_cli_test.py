@@ -293,6 +293,26 @@ class Recordings(MadeRecordings):
                       'there', text)
         self.assertIn('ok, but for 1 warning', text)
 
+    def test_a_stamp_far_ahead_is_left_out_and_a_jump_is_not_simulated_through(self):
+        years = 10**8
+        for name, far, kind, least in (('first', [0], 'time ran backwards', 3.9),
+                                       ('second', [1], 'sample with a bad stamp', 3.98),
+                                       ('middle', [200], 'sample with a bad stamp', 3.98),
+                                       ('last', [399], 'sample with a bad stamp', 3.97),
+                                       # What curves wait for at the jump is missing: ten periods.
+                                       ('jump', range(200, 400), 'time jumped forward', 3.8),
+                                       ('last two', [398, 399], 'time jumped forward', 3.8)):
+            with self.subTest(name):
+                messages = self.rolling()
+                for i in far:
+                    messages[i][2].transforms[0].header.stamp += rospy.Duration(years)
+                _, replay = self.judged(self.write_messages('far.bag', messages))
+                self.assertEqual(list(replay['warnings']), [kind])
+                self.assertEqual(replay['warnings'][kind], 1)
+                self.assertGreaterEqual(replay['simulated_time'], least)
+                self.assertLess(replay['simulated_time'], 4)
+                self.assertTrue(all(c['failure'] is None for c in replay['cables'].values()), replay)
+
 
 if __name__ == '__main__':
     unittest.main(argv=sys.argv[:1], verbosity=2)

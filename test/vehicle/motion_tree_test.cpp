@@ -206,5 +206,21 @@ TEST(MotionTree, FollowIsIndependentOfItsPast) {
   }
 }
 
+TEST(MotionTree, ADetachedFrameMayHaveAnotherParent) {
+  MotionTree tree = MakeChain(1);
+  EXPECT_FALSE(tree.SetFixed("map", "arm", Pose()));
+  tree.Detach("arm");
+  tree.Detach("unheard of");
+  EXPECT_FALSE(tree.Connected("map", "arm"));
+  EXPECT_TRUE(tree.Connected("arm", "sensor"));
+  const Pose X_MA = {{1, 2, 3}, Quaterniond::Identity()};
+  EXPECT_TRUE(tree.SetFixed("map", "arm", X_MA));
+  EXPECT_EQ(tree.Evaluate("map", "arm", 0.5).X.p, X_MA.p);
+  // The other way round it was a loop before.
+  tree.Detach("arm");
+  EXPECT_TRUE(tree.SetFixed("arm", "map", X_MA));
+  EXPECT_EQ(tree.Evaluate("arm", "map", 0.5).X.p, X_MA.p);
+}
+
 }  // namespace
 }  // namespace cosserat_cable

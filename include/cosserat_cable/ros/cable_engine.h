@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -36,7 +37,10 @@ struct EngineOptions {
   double clearance_reach = 0.05;             ///< bodies farther away count as none [m]
   MarkerStyle markers;
   std::string dump_directory = ".";  ///< where a failed cable's state is written
-  int threads = 0;                   ///< 0: one per core. The results are the same, to the last bit
+  /// After so long a cable that has failed settles anew, and after twice as long each time that it
+  /// fails again [s]; 0: it stays as it is, until time or frames jump.
+  double settle_again = 0;
+  int threads = 0;  ///< 0: one per core. The results are the same, to the last bit
   LinkMotionOptions links;
   Findings known;  ///< of the recording, where it was judged before; told along with the run's own
 
@@ -77,8 +81,9 @@ class CableEngine {
   void Finish();
 
   /// Steps the cables as far as the motion of all links is final. Steps are on multiples of dt.
-  /// The first call that finds all links known settles the cables there.
-  void Advance(OutputSink* sink);
+  /// The first call that finds all links known settles the cables there. `stop` is asked now and
+  /// then: true leaves the rest to the next call.
+  void Advance(OutputSink* sink, const std::function<bool()>& stop = {});
 
   /// Whether markers are sent when they are due: not where there is no time for them.
   void SendMarkers(bool send) { send_markers_ = send; }
@@ -88,6 +93,9 @@ class CableEngine {
   const LinkMotion& links() const { return links_; }
   /// True where a cable has failed at any time.
   bool AnyFailed() const;
+  std::size_t cable_count() const { return cables_.size(); }
+  /// Names of the cables that have failed and not settled anew since.
+  std::vector<std::string> Stopped() const;
   /// Sentences to be said to the user, each once.
   std::vector<std::string> TakeNews();
   /// What cannot be, of the recording, the samples and the cables' clamps, until now.
@@ -102,7 +110,9 @@ class CableEngine {
   struct Group;
   struct Threads;
 
+  void Restart();
   bool Start(OutputSink* sink);
+  void SettleAgain();
   void Follow(std::int64_t time, Instant* instant);
   void FollowBlock(std::int64_t from, std::int64_t ready, std::vector<Instant>* block);
   void Sway(std::size_t group, const std::vector<Instant>& block);
@@ -121,6 +131,7 @@ class CableEngine {
   EngineOptions options_;
   std::int64_t dt_, telemetry_period_, marker_period_, diagnostics_period_;  // [ns]
   std::string vehicle_root_;
+  std::string world_;  // in which the cables settled
   LinkMotion links_;
   std::unique_ptr<UprightWatch> upright_;  // null where the recording was judged before
   std::vector<std::unique_ptr<SwayingCable>> cables_;
@@ -134,6 +145,7 @@ class CableEngine {
   bool started_ = false;
   bool finished_ = false;
   std::int64_t now_ = 0;
+  std::int64_t not_before_ = 0;  // the cables settle anew [ns]
   std::uint64_t steps_ = 0;
   std::uint64_t seen_clears_ = 0;
   std::uint64_t resets_ = 0;

@@ -28,7 +28,8 @@ struct NodeOptions {
 /// Reads the node's parameters; each that is missing or of a wrong type is a problem.
 NodeOptions ReadNodeOptions(const ros::NodeHandle& parameters, Problems* problems);
 
-/// Runs until ROS shuts down.
-ExitCode RunNode(const NodeOptions& options);
+/// Runs until ROS shuts down, or SIGINT or SIGTERM comes. `problems`: of the options; where there
+/// are any, of these or of the input, all are listed and nothing runs.
+ExitCode RunNode(const NodeOptions& options, Problems problems);
 
 }  // namespace cosserat_cable

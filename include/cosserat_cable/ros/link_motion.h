@@ -97,15 +97,19 @@ class LinkMotion {
     EdgeSmoother* smoother = nullptr;
   };
 
+  /// No recording or robot rests without a transform for longer: more is another time [ns].
+  static constexpr std::int64_t kForwardJump = 60'000'000'000;
+
   /// `links`: those whose motion will be asked for. `vehicle` outlives this.
   LinkMotion(const VehicleModel& vehicle, const std::vector<std::string>& links,
              LinkMotionOptions options);
 
   /// Samples of two messages that are older than their edges' last by more than half a second say
   /// that time ran backwards: all samples are forgotten, `clear_count` grows, and these are the
-  /// first of the new run. One alone has a bad stamp. Samples that cannot be used are counted in
-  /// `warnings`. `publisher`: the node's name. `recorded`: the time of recording, or of arrival
-  /// [ns]; 0: not known.
+  /// first of the new run. One alone has a bad stamp. So it is with samples that are ahead of all
+  /// others by more than kForwardJump. Samples that cannot be used are counted in `warnings`.
+  /// `publisher`: the node's name. `recorded`: the time of recording, or of arrival [ns]; 0: not
+  /// known.
   void Ingest(const tf2_msgs::TFMessage& message, bool is_static, const std::string& publisher = "",
               std::int64_t recorded = 0);
   void Ingest(const sensor_msgs::JointState& message, const std::string& publisher = "",
@@ -114,6 +118,9 @@ class LinkMotion {
   void Finish();
   /// Forgets all samples; the tree's edges stay.
   void Clear();
+  /// The inertial frame stays the one that it is now, whatever comes above it: unless the tree
+  /// below it changes. Without effect where the option names one.
+  void KeepWorld();
 
   /// The inertial frame: the option, or the common root of all links so far. Empty where they have
   /// none in common.
@@ -163,6 +170,9 @@ class LinkMotion {
 
   const std::map<std::string, Edge>& edges() const { return edges_; }
   std::uint64_t clear_count() const { return clear_count_; }
+  const std::string& clear_reason() const { return clear_reason_; }  ///< of the last Clear
+  /// The latest stamp of the samples that the last Clear forgot [ns].
+  std::int64_t cleared_until() const { return cleared_until_; }
   std::int64_t last_stamp() const { return last_stamp_; }  ///< the latest of all samples [ns]
   Warnings& warnings() { return warnings_; }
   const Warnings& warnings() const { return warnings_; }
@@ -202,6 +212,13 @@ class LinkMotion {
   /// Whether a sample that is far behind its edge confirms that time ran backwards.
   bool RunsBackwards(const std::string& child, const Edge& edge, const Sample& sample);
   void ForgetEarly(const std::string& child);
+  /// Begins anew with a sample that is far ahead of all others.
+  void JumpForward(const std::string& child, const Sample& sample);
+  bool IsFarAhead(const Edge& edge, std::int64_t stamp) const;
+  /// The frame whose edge keeps `child` from being moved in `parent`; empty where none does.
+  std::string RivalOf(const std::string& parent, const std::string& child) const;
+  /// Whether what speaks against this edge went silent for good, and is forgotten now.
+  bool OutlivesRival(const std::string& parent, const std::string& child, Source source);
   void CountBadStamp(const std::string& child, Edge* edge, std::int64_t stamp, double late);
   void CountContradiction(const Edge& edge, const std::string& child, const Pose& X_PC,
                           Source source);
@@ -264,6 +281,13 @@ class LinkMotion {
   std::int64_t recorded_ = 0, message_stamp_ = 0;  // of the message at hand [ns]
   std::int64_t first_recorded_ = 0, first_stamp_ = 0;
 
+  // An edge that another one speaks against.
+  struct Contender {
+    std::int64_t rival_last = 0;        // the other one's stamp [ns]
+    std::int64_t first = 0, count = 0;  // of its own samples since then
+  };
+  std::map<std::pair<std::string, std::string>, Contender> contenders_;  // by parent and child
+
   std::map<std::string, Unstamped> unstamped_;  // by child
   std::set<std::string> unknown_joints_;
   std::uint64_t usable_ = 0, unusable_ = 0;  // transforms that may move
@@ -285,7 +309,11 @@ class LinkMotion {
   std::int64_t epoch_ = 0;          // so that the tree's seconds are small numbers
   bool has_epoch_ = false;
   std::int64_t last_stamp_ = 0;
+  std::int64_t newest_followed_ = 0;  // the same of those that links depend on
+  bool keeps_world_ = false;          // though the option names none
   std::uint64_t clear_count_ = 0;
+  std::string clear_reason_;
+  std::int64_t cleared_until_ = 0;
   Warnings warnings_;
 };
 

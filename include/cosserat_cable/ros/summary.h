@@ -52,7 +52,7 @@ struct Summary {
   double simulated_time = 0;                            ///< [s]
   double wall_time = 0;                                 ///< [s]
   double peak_memory = 0;                               ///< resident [bytes]
-  std::uint64_t resets = 0;                             ///< time ran backwards
+  std::uint64_t resets = 0;                             ///< the cables settled anew
   std::uint64_t gaps = 0;                               ///< of the input
   double smooth = 0;  ///< cutoff of the links' motion [Hz]; 0: none
   std::map<std::string, std::uint64_t> warnings;

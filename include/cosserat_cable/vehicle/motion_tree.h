@@ -46,6 +46,9 @@ class MotionTree {
   bool Append(const Edge& edge, double time, const Pose& X_PC);
   /// Forgets the edge's samples.
   void Restart(const Edge& edge);
+  /// Forgets the edge above `child`, which may have another parent from then on. Links that were
+  /// looked up are to be looked up anew.
+  void Detach(const std::string& child);
   bool Append(const std::string& parent, const std::string& child, double time, const Pose& X_PC) {
     return Append(MovingEdge(parent, child), time, X_PC);
   }
