@@ -20,6 +20,8 @@ namespace {
 
 // What a record's own fit may take [s], and in parts of the whole fit.
 constexpr double kLeastTime = 3, kPartOfFit = 0.1;
+// What all of them may take, and a fit of what is mended, likewise.
+constexpr double kLeastTimeForAll = 24, kPartOfFitForAll = 0.3;
 // Stiffnesses that two records show are the same within this, relative.
 constexpr double kSameStiffness = 0.02;
 // Records whose slips are looked for, the worst first: each takes seconds.
@@ -159,7 +161,8 @@ std::vector<ChannelSlip> SlipsBetween(const MeasurementSet& set, const Estimatio
 }  // namespace
 
 std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& fit,
-                                   const EstimationOptions& options, MeasurementSet* mended) {
+                                   const EstimationOptions& options, double seconds,
+                                   MeasurementSet* mended) {
   std::vector<std::pair<double, std::size_t>> suspects;
   for (std::size_t e = 0; e < set.experiments.size(); ++e)
     if (const double worst = Suspicion(set.experiments[e], fit.experiments[e]); worst > 0)
@@ -172,10 +175,11 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   if (!options.guesses.empty()) points.push_back(options.guesses);
   std::vector<ChannelSlip> slips;
   const auto begin = std::chrono::steady_clock::now();
+  const double budget =
+      std::min(seconds, std::max(kLeastTimeForAll, kPartOfFitForAll * fit.seconds));
   const auto time_left = [&] {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    return options.time_budget > 0 ? options.time_budget - fit.seconds - taken.count()
-                                   : std::numeric_limits<double>::infinity();
+    return budget - taken.count();
   };
   const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
   EstimationOptions of_record = options;
@@ -207,7 +211,7 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
 }
 
 void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
-                const EstimationOptions& options, Estimation* fit) {
+                const EstimationOptions& options, double seconds, Estimation* fit) {
   const auto any_slip = [&](const auto& is) {
     return std::any_of(fit->slips.begin(), fit->slips.end(), is);
   };
@@ -225,7 +229,8 @@ void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
       rest.experiments.push_back(experiment);
   const bool left_out = rest.experiments.size() < mended.experiments.size();
   EstimationOptions of_rest = Cheap(options);
-  of_rest.time_budget = std::max(kLeastTime, fit->seconds);
+  of_rest.time_budget = std::max(
+      kLeastTime, std::min(seconds, std::max(kLeastTimeForAll, kPartOfFitForAll * fit->seconds)));
   for (const ParameterEstimate& one : fit->parameters)
     if (one.unknown.kind == Unknown::Kind::kCable)
       of_rest.guesses.push_back({one.unknown.name, one.value});

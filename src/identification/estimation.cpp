@@ -1,7 +1,9 @@
 #include "cosserat_cable/identification/estimation.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 #include "channel_slips.h"
@@ -35,6 +37,12 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
       farthest = std::max(farthest, part);
       return given.progress(what, farthest);
     };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto seconds_left = [&] {
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+    return options.time_budget > 0 ? options.time_budget - taken.count()
+                                   : std::numeric_limits<double>::infinity();
+  };
   UnknownOptions unknown_options = options.unknowns;
   auto unknowns = std::make_unique<Unknowns>(set, unknown_options, problems);
   if (problems->empty()) {
@@ -65,9 +73,10 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
   Estimation estimation = work->Answer();
   if (options.slips && !work->hurried()) {
     MeasurementSet mended = set;
-    estimation.slips = FindSlips(set, estimation, options, &mended);
+    estimation.slips = FindSlips(set, estimation, options, seconds_left(), &mended);
     NameSlips(*unknowns, &estimation);
-    if (!estimation.slips.empty()) DoubtSlips(mended, *unknowns, options, &estimation);
+    if (!estimation.slips.empty())
+      DoubtSlips(mended, *unknowns, options, seconds_left(), &estimation);
   }
   return estimation;
 }
