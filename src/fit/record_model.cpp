@@ -20,7 +20,7 @@ constexpr int kElementsTried[] = {kElements, 24, 32, 40, 64, 80, 160};
 // Of the samples' median interval, since a record shows nothing faster than its samples; and by how
 // far a motion turns its phase in a step [rad]; within bounds.
 constexpr double kStepOfInterval = 0.25, kStepOfMotion = 0.1;
-constexpr double kSmallestStep = 1e-3, kLargestStep = 2e-2;  // [s]
+constexpr double kSmallestStep = 1e-3, kLargestStep = 1e-2;  // [s]
 // In a step so large the phase is wrong by a hundredth already: no bound keeps a step there.
 constexpr double kMostOfMotion = 0.3;
 constexpr double kFinest = 1e-4;  // [s]

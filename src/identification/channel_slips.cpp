@@ -18,10 +18,10 @@
 namespace cosserat_cable {
 namespace {
 
-// What a record's own fit may take [s], and in parts of the whole fit.
-constexpr double kLeastTime = 3, kPartOfFit = 0.1;
-// What all of them may take, and a fit of what is mended, likewise.
-constexpr double kLeastTimeForAll = 24, kPartOfFitForAll = 0.3;
+// What a record's own fit with an unknown start may take [s], and in parts of the whole fit.
+constexpr double kLeastTime = 3, kPartOfFit = 0.05;
+// What a fit of what is mended may take, likewise.
+constexpr double kLeastTimeOfMended = 24, kPartOfFitOfMended = 0.3;
 // Stiffnesses that two records show are the same within this, relative.
 constexpr double kSameStiffness = 0.02;
 // Records whose slips are looked for, the worst first: each takes seconds.
@@ -175,11 +175,9 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   if (!options.guesses.empty()) points.push_back(options.guesses);
   std::vector<ChannelSlip> slips;
   const auto begin = std::chrono::steady_clock::now();
-  const double budget =
-      std::min(seconds, std::max(kLeastTimeForAll, kPartOfFitForAll * fit.seconds));
   const auto time_left = [&] {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    return budget - taken.count();
+    return seconds - taken.count();
   };
   const auto ended = [&] { return (options.stop && options.stop()) || !(time_left() > 0); };
   EstimationOptions of_record = options;
@@ -229,8 +227,9 @@ void DoubtSlips(const MeasurementSet& mended, const Unknowns& unknowns,
       rest.experiments.push_back(experiment);
   const bool left_out = rest.experiments.size() < mended.experiments.size();
   EstimationOptions of_rest = Cheap(options);
-  of_rest.time_budget = std::max(
-      kLeastTime, std::min(seconds, std::max(kLeastTimeForAll, kPartOfFitForAll * fit->seconds)));
+  of_rest.time_budget =
+      std::max(kLeastTime,
+               std::min(seconds, std::max(kLeastTimeOfMended, kPartOfFitOfMended * fit->seconds)));
   for (const ParameterEstimate& one : fit->parameters)
     if (one.unknown.kind == Unknown::Kind::kCable)
       of_rest.guesses.push_back({one.unknown.name, one.value});

@@ -1,6 +1,6 @@
 // Slips of calibration: channels with a wrong zero, sign, scale, unit or axis, and records that
-// begin elsewhere than the set says. What would fit is suggested, never applied. Both searches end
-// after a part of the time that the fit took, and after `seconds`.
+// begin elsewhere than the set says. What would fit is suggested, never applied. Both end after
+// `seconds`.
 #pragma once
 
 #include <vector>
