@@ -3,12 +3,14 @@ all, exit codes."""
 
 import contextlib
 import difflib
+import io
 import json
 import os
+import signal
 import sys
 import tempfile
 
-OK, BAD_INPUT, FAILED, IO_ERROR = 0, 2, 3, 4
+OK, BAD_INPUT, FAILED, IO_ERROR, INTERRUPTED = 0, 2, 3, 4, 130
 
 
 class Problems:
@@ -80,14 +82,56 @@ def write_json(path, numbers):
         write_text(path, json.dumps(numbers, indent=2, sort_keys=True) + '\n')
 
 
+STDOUT = 'the standard output could not be written whole'
+
+
+class _Stdout(io.FileIO):
+    """The standard output, whose errors say that they are its own."""
+
+    def write(self, data):
+        try:
+            return super().write(data)
+        except OSError as error:
+            error.filename = STDOUT
+            raise
+
+
+def _open_streams():
+    sys.stderr = sys.stderr or open(os.devnull, 'w', encoding='utf-8')
+    if sys.stdout is None:  # the caller has closed it: what is printed is lost, and that shows
+        os.dup2(os.open('/dev/full', os.O_WRONLY), 1)
+    sys.stdout = io.TextIOWrapper(io.BufferedWriter(_Stdout(1, 'w', closefd=False)),
+                                  encoding=getattr(sys.stdout, 'encoding', 'utf-8'),
+                                  errors=getattr(sys.stdout, 'errors', 'strict'),
+                                  line_buffering=os.isatty(1))
+
+
+def _interrupt(_signal, _frame):
+    raise KeyboardInterrupt
+
+
 def run(main):
-    """Runs a tool's main: a file that cannot be read or written whole is exit code 4."""
+    """Runs a tool's main: a file that cannot be read or written whole is exit code 4, and so is a
+    standard output that is full or that nobody reads to its end. An interrupt ends it without a
+    traceback."""
+    signal.signal(signal.SIGTERM, _interrupt)
+    _open_streams()
     try:
-        sys.exit(main() or OK)
-    except BrokenPipeError:
-        # Nobody reads the rest of what it prints, as below `| head`: no reason to fail.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        sys.exit(OK)
+        try:
+            code = main() or OK
+        except SystemExit as end:  # of argparse, too, whose help goes to the standard output
+            code = end.code or OK
+        sys.stdout.flush()
+    except KeyboardInterrupt:
+        print('interrupted', file=sys.stderr)
+        code = INTERRUPTED
+    except MemoryError:
+        print('the memory does not suffice', file=sys.stderr)
+        code = FAILED
     except OSError as error:
         print(f'{error.filename or "error"}: {error.strerror or error}', file=sys.stderr)
-        sys.exit(IO_ERROR)
+        code = IO_ERROR
+        if error.filename == STDOUT:
+            # What is left in its buffer would fail once more at the end.
+            os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    sys.exit(code)

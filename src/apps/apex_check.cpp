@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "cosserat_cable/console/run_tool.h"
 #include "cosserat_cable/ros/apex_gate.h"
 
 namespace cosserat_cable {
@@ -186,7 +187,9 @@ TEST(ApexCheck, BoundsHold) {
 }  // namespace cosserat_cable
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "apex_check");
-  return RUN_ALL_TESTS();
+  return cosserat_cable::RunTool([&] {
+    testing::InitGoogleTest(&argc, argv);
+    ros::init(argc, argv, "apex_check");
+    return RUN_ALL_TESTS();
+  });
 }

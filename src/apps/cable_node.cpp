@@ -7,6 +7,8 @@
 #include <iostream>
 #include <string>
 
+#include "cosserat_cable/console/run_tool.h"
+
 namespace {
 
 constexpr char kHelp[] =
@@ -18,9 +20,7 @@ constexpr char kHelp[] =
     "not stamps).\n"
     "Topics: cables/NAME/apex, cables/NAME/markers, cables/markers, /diagnostics.\n";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h") {
       std::cout << kHelp;
@@ -38,4 +38,10 @@ int main(int argc, char** argv) {
     return cosserat_cable::kExitBadInput;
   }
   return cosserat_cable::RunNode(options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cosserat_cable::RunTool([&] { return Run(argc, argv); });
 }

@@ -34,6 +34,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMostModes = 100;
+// Longer than any recording; in nanoseconds it still is a number [s].
+constexpr double kLongest = 1e9;
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -117,7 +119,8 @@ Place ByRecording(const ModesOptions& options, const Inputs& inputs, LinkMotion*
   const auto seconds = [&](std::int64_t stamp) {
     return 1e-9 * static_cast<double>(stamp - recorded.first);
   };
-  const std::int64_t time = recorded.first + std::llround(1e9 * *options.time);
+  const std::int64_t time =
+      recorded.first + std::llround(1e9 * std::clamp(*options.time, -kLongest, kLongest));
   if (time < recorded.begin || time > recorded.end) {
     problems->Add("", 0, "time",
                   "got " + FormatNumber(*options.time) + " s, expected " +

@@ -4,10 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "cosserat_cable/cable/contact_stiffness.h"
+#include "cosserat_cable/console/output_file.h"
 #include "cosserat_cable/input/gravity.h"
 #include "json.h"
 
@@ -164,10 +165,12 @@ double PeakMemory() {
 }
 
 bool WriteTextFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  return !file.fail();
+  try {
+    WriteWhole(path, text);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 }  // namespace cosserat_cable
