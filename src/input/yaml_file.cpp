@@ -1,10 +1,6 @@
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
+#include "cosserat_cable/input/text_file.h"
 #include "cosserat_cable/input/yaml_value.h"
 
 namespace cosserat_cable {
@@ -57,21 +53,15 @@ BareName FindBareName(const std::string& text) {
 }  // namespace
 
 YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
-  std::error_code ignored;  // what cannot be asked about cannot be opened either
-  if (std::filesystem::is_directory(path, ignored)) {
-    problems->Add(path, "got a directory, expected a YAML file");
+  const TextFile file = ReadTextFile(path, kMostOfYaml);
+  if (!file.ok) {
+    problems->Add(path, file.is.empty() ? "cannot be read: " + file.why
+                                        : "got " + file.is + ", expected a YAML file");
     return {};
   }
-  errno = 0;
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad()) {
-    problems->Add(path, std::string("cannot be read: ") + std::strerror(errno));
-    return {};
-  }
+  const std::string& text = file.text;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
+    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
     if (documents.empty()) {
       problems->Add(path, 1, "", "got an empty file, expected a YAML document");
       return {};
@@ -83,7 +73,7 @@ YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
     }
     return YamlValue::Root(path, documents[0], problems);
   } catch (const YAML::Exception& error) {
-    if (const BareName bare = FindBareName(text.str()); bare.line > 0) {
+    if (const BareName bare = FindBareName(text); bare.line > 0) {
       problems->Add(path, bare.line, bare.name,
                     "malformed YAML: " + error.msg +
                         ": within { } and [ ] a name with brackets stands in quotes: '" +

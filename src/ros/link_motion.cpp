@@ -44,6 +44,7 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
   if (options_.judge) judge_.emplace(vehicle_, options_.max_gap);
   for (const JointModel& joint : vehicle_.joints) {
     joint_above_[joint.child] = &joint;
+    parents_.insert(joint.parent);
     joints_[joint.name] = &joint;
     if (!joint.mimic.empty()) mimics_.emplace(joint.mimic, &joint);
     const bool held =
@@ -53,6 +54,7 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
                Source::kUrdf);
     }
   }
+  UpdateTree();
   for (const ConstantEdge& constant : options_.constants) {
     AddFixed(constant.parent, constant.child, constant.X_PC, Source::kTf);
     edges_.at(constant.child).is_constant = true;
@@ -125,7 +127,10 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
                                            Source source, const Pose& X_PC) {
   const auto found = edges_.find(child);
   if (found == edges_.end()) {
-    if (IsAbove(child, parent)) {
+    // The URDF is a tree, and what nothing hangs on is above nothing: a recording may have as many
+    // frames as it likes.
+    const bool may_be_above = source != Source::kUrdf && parents_.count(child) > 0;
+    if (child == parent || (may_be_above && IsAbove(child, parent))) {
       warnings_.Count("frame '" + child + "' would be above itself",
                       Event("",
                             "'" + parent + " -> " + child + "' by " + ToString(source) +
@@ -136,7 +141,9 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
     Edge* edge = &edges_[child];
     edge->parent = parent;
     edge->source = source;
-    UpdateTree();
+    parents_.insert(parent);
+    // Elsewhere it changes no link's way up.
+    if (relevant_.count(child) > 0) UpdateTree();
     const JointModel* joint = JointAbove(child);
     if (joint != nullptr && joint->parent != parent && edge->is_followed) {
       warnings_.Count(
