@@ -9,7 +9,7 @@ namespace cosserat_cable {
 /// Far more than anybody writes by hand [bytes].
 constexpr std::uint64_t kMostOfYaml = 32 * 1024 * 1024;
 /// A record of ten million rows of ten columns [bytes].
-constexpr std::uint64_t kMostOfCsv = std::uint64_t{4} * 1024 * 1024 * 1024;
+constexpr std::uint64_t kMostOfCsv = std::uint64_t{2} * 1024 * 1024 * 1024;
 
 struct TextFile {
   bool ok = false;
