@@ -1,4 +1,8 @@
+#include <yaml-cpp/eventhandler.h>
+
 #include <cctype>
+#include <sstream>
+#include <vector>
 
 #include "cosserat_cable/input/text_file.h"
 #include "cosserat_cable/input/yaml_value.h"
@@ -50,6 +54,54 @@ BareName FindBareName(const std::string& text) {
   return {};
 }
 
+/// Where the contents of documents begin, and nothing of what they are.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override { begins_ = true; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { Take(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { Take(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    Take(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    Take(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    Take(mark);
+  }
+  void OnMapEnd() override {}
+  const std::vector<YAML::Mark>& starts() const { return starts_; }
+
+ private:
+  void Take(const YAML::Mark& mark) {
+    if (begins_) starts_.push_back(mark);
+    begins_ = false;
+  }
+
+  std::vector<YAML::Mark> starts_;
+  bool begins_ = false;
+};
+
+/// Whether a line begins with what stands between documents.
+bool HasSeparator(const std::string& text) {
+  return text.find("\n---") != std::string::npos || text.find("\n...") != std::string::npos;
+}
+
+/// Where the first two documents begin. yaml-cpp's LoadAll never comes to an end where a bracket is
+/// closed that nothing opened: each try to go on makes another document of nothing.
+std::vector<YAML::Mark> FirstDocuments(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts documents;
+  if (parser.HandleNextDocument(documents)) parser.HandleNextDocument(documents);
+  return documents.starts();
+}
+
 }  // namespace
 
 YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
@@ -61,17 +113,18 @@ YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
   }
   const std::string& text = file.text;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
+    const std::vector<YAML::Mark> documents = FirstDocuments(text);
     if (documents.empty()) {
       problems->Add(path, 1, "", "got an empty file, expected a YAML document");
       return {};
     }
     if (documents.size() > 1) {
-      problems->Add(path, documents[1].Mark().line + 1, "",
-                    "got a second YAML document, expected one in the file");
+      problems->Add(path, documents[1].line + 1, "",
+                    HasSeparator(text) ? "got a second YAML document, expected one in the file"
+                                       : "malformed YAML: this belongs to nothing before it");
       return {};
     }
-    return YamlValue::Root(path, documents[0], problems);
+    return YamlValue::Root(path, YAML::Load(text), problems);
   } catch (const YAML::Exception& error) {
     if (const BareName bare = FindBareName(text); bare.line > 0) {
       problems->Add(path, bare.line, bare.name,
