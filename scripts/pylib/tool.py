@@ -9,6 +9,7 @@ import os
 import signal
 import sys
 import tempfile
+import traceback
 
 OK, BAD_INPUT, FAILED, IO_ERROR, INTERRUPTED = 0, 2, 3, 4, 130
 
@@ -48,6 +49,37 @@ def nearest(word, known):
     return '; there is ' + ', '.join(f"'{k}'" for k in known) if known else ''
 
 
+def check_outputs(problems, reads, writes):
+    """Tells every output that is an input or another output, that is no regular file, or that
+    cannot be made. `writes`: [(option, path or None)]; a name that leads to an input counts as it."""
+    def are_one(one, other):
+        return (os.path.exists(one) and os.path.exists(other) and os.path.samefile(one, other)
+                or os.path.realpath(one) == os.path.realpath(other))
+
+    outputs = [(option, path) for option, path in writes if path is not None]
+    for k, (option, path) in enumerate(outputs):
+        folder = os.path.dirname(os.path.abspath(path))
+        if not path:
+            problems.add(option, 'got an empty text, expected a path')
+        elif os.path.isdir(path):
+            problems.add(path, f'{option}: got a folder, expected a file')
+        elif os.path.exists(path) and not os.path.isfile(path):
+            problems.add(path, f'{option}: got a device or pipe, expected a file, which is put in '
+                               'place whole')
+        elif not os.path.isdir(folder):
+            problems.add(path, f"{option}: the folder '{folder}' does not exist")
+        elif not os.access(folder, os.W_OK | os.X_OK):
+            problems.add(path, f"{option}: the folder '{folder}' is not writable")
+        else:
+            for other in reads:
+                if other and are_one(path, other):
+                    problems.add(path, f"{option}: '{other}' is read by this run and would be lost: "
+                                       'write elsewhere')
+            for name, other in outputs[:k]:
+                if are_one(path, other):
+                    problems.add(path, f'{option}: is what {name} writes, too')
+
+
 @contextlib.contextmanager
 def whole_file(path):
     """Yields a temporary name beside `path`, which takes `path`'s place when the block ends
@@ -82,6 +114,7 @@ def write_json(path, numbers):
         write_text(path, json.dumps(numbers, indent=2, sort_keys=True) + '\n')
 
 
+TRACEBACK = 'COSSERAT_CABLE_TRACEBACK'
 STDOUT = 'the standard output could not be written whole'
 
 
@@ -134,4 +167,13 @@ def run(main):
         if error.filename == STDOUT:
             # What is left in its buffer would fail once more at the end.
             os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
+    except Exception as error:  # pylint: disable=broad-except
+        # Files that only look like what they should be: what is wrong with the usual ones is said
+        # where they are read.
+        if os.environ.get(TRACEBACK):
+            raise
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        print(f'an input is not what it should be: {type(error).__name__}: {error}, in {where.name}; '
+              f'{TRACEBACK}=1 in the environment shows where', file=sys.stderr)
+        code = BAD_INPUT
     sys.exit(code)

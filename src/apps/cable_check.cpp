@@ -34,6 +34,11 @@ int Run(int argc, char** argv) {
   if (!problems.empty()) json.clear();
   engine.ApplyGravity(&problems);
   const cosserat_cable::Inputs inputs = cosserat_cable::LoadInputs(paths, engine, &problems);
+  cosserat_cable::Problems lost;
+  outputs.WritesFolder(clamps, "clamps", cosserat_cable::ClampMotionFiles(inputs));
+  outputs.CheckReads(cosserat_cable::FilesRead(paths, inputs), &lost);
+  if (!lost.empty()) json.clear();
+  problems.Append(lost);
   if (!json.empty() && !cosserat_cable::WriteTextFile(
                            json, cosserat_cable::DescribeJson(inputs, engine, problems))) {
     std::cerr << json << ": could not be written\n";

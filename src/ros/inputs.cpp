@@ -240,11 +240,16 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
 }  // namespace
 
 void AddReads(const InputPaths& paths, PlannedOutputs* outputs) {
-  outputs->Reads(paths.vehicle);
-  outputs->Reads(paths.cables);
+  for (const std::string& file : FilesRead(paths, {})) outputs->Reads(file);
+}
+
+std::vector<std::string> FilesRead(const InputPaths& paths, const Inputs& inputs) {
+  std::vector<std::string> files = {paths.vehicle, paths.cables};
   for (const std::string& section : paths.sections)
-    outputs->Reads(section.substr(section.find('=') + 1));
-  for (const std::string& bag : paths.bags) outputs->Reads(bag);
+    files.push_back(section.substr(section.find('=') + 1));
+  files.insert(files.end(), paths.bags.begin(), paths.bags.end());
+  files.insert(files.end(), inputs.vehicle.mesh_files.begin(), inputs.vehicle.mesh_files.end());
+  return files;
 }
 
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems) {

@@ -48,6 +48,7 @@ struct Scene {
   std::vector<Surroundings> surroundings;           // of each cable
   std::vector<std::vector<const Body*>> obstacles;  // likewise
   ModesSetting setting;
+  std::vector<std::string> files;  // that were read
 };
 
 void CheckClamps(std::size_t i, const Scene& scene, Problems* problems) {
@@ -182,6 +183,7 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
   if (options.bags.empty()) RefuseRecordingOptions(options, problems);
   Inputs inputs = LoadInputs(paths, options.engine, problems);
   Scene scene;
+  scene.files = FilesRead(paths, inputs);
   Place place;
   LinkMotionOptions link_options = options.engine.links;
   link_options.judge = false;
@@ -261,7 +263,7 @@ Scene Specimen(const ModesOptions& options, Problems* problems) {
   return scene;
 }
 
-void CheckOutputs(const ModesOptions& options, Problems* problems) {
+PlannedOutputs CheckOutputs(const ModesOptions& options, Problems* problems) {
   if (options.count < 1 || options.count > kMostModes)
     problems->Add(
         "", 0, "count",
@@ -271,6 +273,7 @@ void CheckOutputs(const ModesOptions& options, Problems* problems) {
   outputs.WritesFolder(options.output, "output", {"modes.json", "cables.yaml"});
   outputs.WritesFile(options.json, "json");
   outputs.Check(problems);
+  return outputs;
 }
 
 // A cable that lies too deep in a body is not where it would rest.
@@ -320,10 +323,15 @@ bool Write(const fs::path& path, const std::string& text) {
 ExitCode RunModes(ModesOptions options) {
   const Clock::time_point start = Clock::now();
   Problems problems;
-  CheckOutputs(options, &problems);
+  PlannedOutputs outputs = CheckOutputs(options, &problems);
   options.engine.ApplyGravity(&problems);
   Scene scene =
       options.vehicle.empty() ? Specimen(options, &problems) : OnVehicle(options, &problems);
+  std::vector<std::string> shapes;
+  for (const CableModel& cable : scene.cables.cables) shapes.push_back(cable.name + ".csv");
+  outputs.WritesFolder(options.output, "output", shapes);
+  scene.files.push_back(options.cables);
+  outputs.CheckReads(scene.files, &problems);
   if (!problems.empty()) {
     std::cerr << problems.ToString();
     return kExitBadInput;

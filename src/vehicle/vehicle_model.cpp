@@ -175,6 +175,7 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
     vehicle.entries[NameOf(*e)] = {e->GetLineNum(), CountElements(*e, GeometryKind::kCollision),
                                    CountElements(*e, GeometryKind::kVisual)};
   }
+  vehicle.mesh_files = MeshFiles(*robot, path, find_package);
   Problems found, complaints;
   CheckUrdf(*robot, path, {collision_links, use.visual_links, use.moving_links}, &found,
             &vehicle.warnings, &vehicle.notes);
