@@ -50,15 +50,15 @@ def nearest(word, known):
 
 
 def check_outputs(problems, reads, writes):
-    """Tells every output that is an input or another output, that is no regular file, or that
-    cannot be made. `writes`: [(option, path or None)]; a name that leads to an input counts as it."""
+    """Tells every output that is an input or another output, or no regular file; one that cannot be
+    made is an OSError before anything is done. `writes`: [(option, path or None)]; a name that leads
+    to an input counts as it."""
     def are_one(one, other):
         return (os.path.exists(one) and os.path.exists(other) and os.path.samefile(one, other)
                 or os.path.realpath(one) == os.path.realpath(other))
 
     outputs = [(option, path) for option, path in writes if path is not None]
     for k, (option, path) in enumerate(outputs):
-        folder = os.path.dirname(os.path.abspath(path))
         if not path:
             problems.add(option, 'got an empty text, expected a path')
         elif os.path.isdir(path):
@@ -66,10 +66,6 @@ def check_outputs(problems, reads, writes):
         elif os.path.exists(path) and not os.path.isfile(path):
             problems.add(path, f'{option}: got a device or pipe, expected a file, which is put in '
                                'place whole')
-        elif not os.path.isdir(folder):
-            problems.add(path, f"{option}: the folder '{folder}' does not exist")
-        elif not os.access(folder, os.W_OK | os.X_OK):
-            problems.add(path, f"{option}: the folder '{folder}' is not writable")
         else:
             for other in reads:
                 if other and are_one(path, other):
@@ -78,12 +74,14 @@ def check_outputs(problems, reads, writes):
             for name, other in outputs[:k]:
                 if are_one(path, other):
                     problems.add(path, f'{option}: is what {name} writes, too')
+            with whole_file(path, replace=False):
+                pass
 
 
 @contextlib.contextmanager
-def whole_file(path):
-    """Yields a temporary name beside `path`, which takes `path`'s place when the block ends
-    well."""
+def whole_file(path, replace=True):
+    """Yields a temporary name beside `path`, which takes `path`'s place when the block ends well,
+    unless it is only to be seen whether it could."""
     folder = os.path.dirname(os.path.abspath(path))
     handle, temporary = tempfile.mkstemp(prefix='.' + os.path.basename(path) + '.', suffix='.part',
                                          dir=folder)
@@ -93,7 +91,8 @@ def whole_file(path):
         mask = os.umask(0)
         os.umask(mask)
         os.chmod(temporary, 0o666 & ~mask)  # mkstemp makes it private
-        os.replace(temporary, path)
+        if replace:
+            os.replace(temporary, path)
     except OSError as error:
         if error.filename:
             raise

@@ -113,7 +113,7 @@ std::string Summary::ToText() const {
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
   if (!cables.empty())
-    text << "energy off by: what each cable's energy balance lacks, in % of what the cable "
+    text << "energy off by: what each cable's energies do not add up to, in % of what the cable "
             "dissipated; -: it dissipated nothing to speak of\n";
   if (resets > 0) text << "time ran backwards " << resets << " times: the cables settled anew\n";
   if (gaps > 0) text << "gaps in the input: " << gaps << " (held, flagged in the telemetry)\n";

@@ -130,7 +130,7 @@ class BadInputs(unittest.TestCase):
             self.assertIn('device or pipe', self.travel(self.good, output=output))
             self.assertIn('device or pipe', self.travel(self.good, '--json', output))
         self.assertIn('folder', self.travel(self.good, output=self.folder))
-        self.assertIn('does not exist', self.travel(self.good, output='/nowhere/out.bag'))
+        self.refused('travel_to_bag', self.good, '-o', '/nowhere/out.bag', '--column', 'fl=fl', code=(4,))
         self.assertIn('empty', self.travel(self.good, '--json', ''))
         self.assertTrue(os.path.exists('/dev/null') and not os.path.isfile('/dev/null'))
 
