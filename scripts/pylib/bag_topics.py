@@ -93,7 +93,7 @@ class BagTopics:
             problems.add(path, 'it has no index (the recording was cut off): '
                                f'run `rosbag reindex {path}`')
             return
-        except rosbag.ROSBagException as error:
+        except (rosbag.ROSBagException, ValueError) as error:
             problems.add(path, f'not a bag: {error}')
             return
         topics = self.bag.get_type_and_topic_info().topics

@@ -39,7 +39,7 @@ def read(folder, name, program, key, records, problems):
     with open(path, encoding='utf-8') as source:
         try:
             data = json.load(source)
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             problems.add(path, f'no JSON: {error}')
             return {}, {}
     if not isinstance(data, dict) or key not in data:
@@ -65,7 +65,13 @@ def main(description, name, program, key, records, title, content):
     problems.exit_if_any()
     title = f"{title}: {data.get('set', '')}"
     # With matplotlib, which takes a second: not for a file that is refused.
-    items = importlib.import_module(content).content(data, read_records)
+    content_of = importlib.import_module(content).content
+    try:
+        items = content_of(data, read_records)
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+        problems.add(os.path.join(options.folder, name),
+                     f'not written by {program}: {type(error).__name__}: {error}')
+        problems.exit_if_any()
     path = os.path.join(options.folder, 'report.html')
     report_page.write_html(path, title, items)
     print(path)

@@ -15,10 +15,16 @@ OF_VEHICLES = ('name', 'reference', 'a', 'b', 'apex', 'avoid', 'contact')
 
 
 def load_yaml(path, problems):
+    if not os.path.isfile(path):
+        problems.add(path, 'got no file, expected a YAML file')
+        return '', None
     with open(path, encoding='utf-8') as source:
         text = source.read()
     try:
         return text, with_numbers(yaml.safe_load(text))
+    except RecursionError:
+        problems.add(path, 'malformed YAML: too deep, or a list that is in itself')
+        return text, None
     except yaml.YAMLError as error:
         mark = getattr(error, 'problem_mark', None)
         problems.add(f'{path}:{mark.line + 1}' if mark else path, f'malformed YAML: {error.problem}'

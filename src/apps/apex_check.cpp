@@ -26,6 +26,7 @@
 #include <utility>
 #include <vector>
 
+#include "cosserat_cable/console/run_tool.h"
 #include "cosserat_cable/ros/apex_gate.h"
 
 namespace cosserat_cable {
@@ -38,7 +39,11 @@ constexpr double kFirstMessageTimeout = 60;  // [s], for the node to start and t
 double ToNumber(XmlRpc::XmlRpcValue value, const std::string& key, Problems* problems) {
   if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
     const auto number = static_cast<double>(value);
-    if (std::isnan(number)) problems->Add("", 0, key, "got nan, expected a number");
+    // A window may have no end; any other bound without one holds whatever happens.
+    if (std::isnan(number) || (std::isinf(number) && key != "end"))
+      problems->Add(
+          "", 0, key,
+          std::isnan(number) ? "got nan, expected a number" : "got inf, expected a finite number");
     return number;
   }
   if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return static_cast<int>(value);
@@ -167,8 +172,11 @@ TEST(ApexCheck, BoundsHold) {
       (*messages)[check.cable] = ReadApexTelemetry(path, check.cable, &problems);
     }
   }
+  const double silence = parameters.param("silence", 5.0);
+  if (!(silence > 0 && std::isfinite(silence)))
+    problems.Add("", 0, "silence", "expected a positive number [s]");
   ASSERT_TRUE(problems.empty()) << problems.ToString();
-  if (bag.empty()) telemetry = Listen(checks, parameters.param("silence", 5.0));
+  if (bag.empty()) telemetry = Listen(checks, silence);
 
   for (const auto& [cable, bounds] : checks) {
     const std::vector<ApexTelemetry>& messages = telemetry.at(cable);
@@ -186,7 +194,9 @@ TEST(ApexCheck, BoundsHold) {
 }  // namespace cosserat_cable
 
 int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "apex_check");
-  return RUN_ALL_TESTS();
+  return cosserat_cable::RunTool([&] {
+    testing::InitGoogleTest(&argc, argv);
+    ros::init(argc, argv, "apex_check");
+    return RUN_ALL_TESTS();
+  });
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "cosserat_cable/console/run_tool.h"
+
 namespace {
 
 constexpr char kHelp[] =
@@ -20,9 +22,7 @@ constexpr char kHelp[] =
     "not stamps), ~settle_again (a cable that stopped does so after so long [s]; 0: never).\n"
     "Topics: cables/NAME/apex, cables/NAME/markers, cables/markers, /diagnostics.\n";
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int Run(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     if (std::string(argv[i]) == "--help" || std::string(argv[i]) == "-h") {
       std::cout << kHelp;
@@ -40,4 +40,10 @@ int main(int argc, char** argv) {
   const cosserat_cable::NodeOptions options =
       cosserat_cable::ReadNodeOptions(ros::NodeHandle("~"), &problems);
   return cosserat_cable::RunNode(options, std::move(problems));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cosserat_cable::RunTool([&] { return Run(argc, argv); });
 }

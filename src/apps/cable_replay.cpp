@@ -1,14 +1,20 @@
 // Replays a recording through the cables, without a master, into a bag.
+#include "cosserat_cable/console/run_tool.h"
 #include "cosserat_cable/ros/replay.h"
 #include "engine_arguments.h"
 
-int main(int argc, char** argv) {
+namespace {
+
+int Run(int argc, char** argv) {
   cosserat_cable::ReplayOptions options;
   cosserat_cable::EngineOptions& engine = options.engine;
   CLI::App app("Replays recorded link motion through a vehicle's cables, into a bag.");
   cosserat_cable::AddInputArguments(&app, &options.inputs, &engine);
-  app.add_option("--output", options.output, "bag to be written")->required();
-  app.add_option("--json", options.json, "file for the summary's numbers");
+  app.add_option("--output", options.output, "bag to be written")
+      ->required()
+      ->check(cosserat_cable::FilledPath());
+  app.add_option("--json", options.json, "file for the summary's numbers")
+      ->check(cosserat_cable::FilledPath());
   app.add_option("--dt", engine.dt, "time step [s]")->capture_default_str();
   app.add_option("--threads", engine.threads, "0: one per core; the results are the same")
       ->capture_default_str();
@@ -27,4 +33,10 @@ int main(int argc, char** argv) {
   int code = 0;
   if (!cosserat_cable::Parse(&app, argc, argv, &code)) return code;
   return cosserat_cable::RunReplay(std::move(options));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return cosserat_cable::RunTool([&] { return Run(argc, argv); });
 }

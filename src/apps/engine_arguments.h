@@ -38,14 +38,20 @@ inline void AddSharedArguments(CLI::App* app, EngineOptions* engine) {
 }
 
 inline void AddInputArguments(CLI::App* app, InputPaths* paths, EngineOptions* engine) {
-  app->add_option("--vehicle", paths->vehicle, "URDF file of the vehicle")->required();
-  app->add_option("--cables", paths->cables, "YAML file of its cables")->required();
+  app->add_option("--vehicle", paths->vehicle, "URDF file of the vehicle")
+      ->required()
+      ->check(FilledPath());
+  app->add_option("--cables", paths->cables, "YAML file of its cables")
+      ->required()
+      ->check(FilledPath());
   app->add_option(
          "--section", paths->sections,
          "[NAME=]FILE, may be repeated: the cable NAME, or all, have the stiffness, damping "
          "and extensions of a specimen's file, as cable_identify and cable_diagnose write it")
-      ->allow_extra_args(false);
-  app->add_option("--bag", paths->bags, "recording(s) with /tf, /tf_static, /joint_states");
+      ->allow_extra_args(false)
+      ->check(FilledPath());
+  app->add_option("--bag", paths->bags, "recording(s) with /tf, /tf_static, /joint_states")
+      ->check(FilledPath());
   app->add_option("--start", paths->start, "begin so long after the recording's begin [s]");
   app->add_option("--duration", paths->duration, "replay so much of it [s]; default: to its end");
   AddSharedArguments(app, engine);

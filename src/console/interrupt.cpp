@@ -14,6 +14,8 @@ void OnSignal(int) { interrupted = 1; }
 void CatchInterrupts() {
   std::signal(SIGINT, OnSignal);
   std::signal(SIGTERM, OnSignal);
+  // The terminal is gone, unless nohup said that this does not matter.
+  if (std::signal(SIGHUP, OnSignal) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);
 }
 
 bool Interrupted() { return interrupted != 0; }

@@ -55,6 +55,23 @@ void PlannedOutputs::WritesFolder(const std::string& path, const std::string& op
     outputs_.push_back({(fs::path(path) / file).string(), option, false, true});
 }
 
+bool PlannedOutputs::IsRead(const Output& output, const std::vector<std::string>& files,
+                            Problems* problems) {
+  for (const std::string& input : files) {
+    if (!AreOne(output.path, input) && !AreOne(output.path + kBeside, input)) continue;
+    problems->Add(output.path, 0, output.option,
+                  "'" + input + "' is read by this run and would be lost: write elsewhere");
+    return true;
+  }
+  return false;
+}
+
+void PlannedOutputs::CheckReads(const std::vector<std::string>& files, Problems* problems) {
+  for (const Output& output : outputs_)
+    if (!output.is_folder) IsRead(output, files, problems);
+  inputs_.insert(inputs_.end(), files.begin(), files.end());
+}
+
 void PlannedOutputs::Check(Problems* problems) const {
   std::error_code none;
   for (std::size_t i = 0; i < outputs_.size(); ++i) {
@@ -80,13 +97,11 @@ void PlannedOutputs::Check(Problems* problems) const {
       tell("got a device or pipe, expected a file, which is put in place whole");
       continue;
     }
-    for (const std::string& input : inputs_)
-      if (AreOne(output.path, input) || AreOne(output.path + kBeside, input)) {
-        tell("'" + input + "' is read by this run and would be lost: write elsewhere");
-        break;
-      }
+    IsRead(output, inputs_, problems);
     for (std::size_t k = 0; k < i; ++k)
-      if (AreOne(output.path, outputs_[k].path)) {
+      if (AreOne(output.path, outputs_[k].path) ||
+          AreOne(output.path + kBeside, outputs_[k].path) ||
+          AreOne(output.path, outputs_[k].path + kBeside)) {
         tell("is what --" + outputs_[k].option + " writes, too");
         break;
       }

@@ -3,14 +3,21 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 
+#include "collada_check.h"
 #include "cosserat_cable/contact/shape.h"
+#include "cosserat_cable/input/text_file.h"
 #include "mesh_cleanup.h"
 
 namespace cosserat_cable {
 namespace {
+
+// Ten million triangles of a binary STL; assimp reads a file whole [bytes].
+constexpr std::uintmax_t kMostOfMesh = 512 * 1024 * 1024;
 
 Eigen::Affine3d ToEigen(const aiMatrix4x4& m) {
   Eigen::Affine3d result;
@@ -61,6 +68,20 @@ TriangleMesh LoadMesh(const std::string& path, const Eigen::Vector3d& scale, Pro
   if (!std::filesystem::is_regular_file(path, error)) {
     problems->Add(path, "mesh file not found");
     return {};
+  }
+  if (std::filesystem::file_size(path, error) > kMostOfMesh) {
+    problems->Add(path,
+                  "mesh file has more than " + std::to_string(kMostOfMesh) + " bytes: simplify it");
+    return {};
+  }
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension == ".dae") {
+    const std::string trouble = ColladaProblem(ReadTextFile(path, kMostOfMesh).text);
+    if (!trouble.empty()) {
+      problems->Add(path, "mesh could not be read: " + trouble);
+      return {};
+    }
   }
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,

@@ -1,12 +1,17 @@
 #include "cosserat_cable/input/map_reader.h"
 
 #include <algorithm>
+#include <set>
 
 namespace cosserat_cable {
 namespace {
 
+// A key that is longer fills no screen.
+constexpr std::size_t kLongestKey = 100;
+
 std::string JoinPath(const std::string& map, const std::string& key) {
-  return map.empty() ? key : map + "." + key;
+  const std::string shown = key.size() > kLongestKey ? key.substr(0, kLongestKey) + "..." : key;
+  return map.empty() ? shown : map + "." + shown;
 }
 
 std::string Join(const std::vector<std::string>& words) {
@@ -45,8 +50,9 @@ MapReader::MapReader(const YamlValue& value, const std::string& expected) : valu
 }
 
 MapReader::~MapReader() {
+  const std::set<std::string> known(known_.begin(), known_.end());
   for (const auto& [key, value] : entries_) {
-    if (std::find(known_.begin(), known_.end(), key) != known_.end()) continue;
+    if (known.count(key) > 0) continue;
     const std::string nearest = NearestWord(key, known_);
     value.Report(nearest.empty() ? "got an unknown key, expected one of " + Join(known_)
                                  : "got an unknown key, did you mean '" + nearest + "'?");

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <limits>
 #include <locale>
 #include <set>
@@ -13,6 +15,11 @@
 
 namespace cosserat_cable {
 namespace {
+
+locale_t Classic() {
+  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
+  return classic;
+}
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 
@@ -58,8 +65,7 @@ NumberText ParseNumber(const std::string& text) {
   }
   // Plain strtod would expect a decimal comma in some places of the world; a stream takes several
   // times as long, which files of a million numbers feel.
-  static const locale_t classic = newlocale(LC_ALL_MASK, "C", nullptr);
-  const double value = strtod_l(text.c_str(), nullptr, classic);
+  const double value = strtod_l(text.c_str(), nullptr, Classic());
   if (std::isinf(value)) return {NumberText::Kind::kNonFinite, 0};
   return {NumberText::Kind::kFinite, value};
 }
@@ -73,12 +79,24 @@ std::string FormatRounded(double value, int digits) {
 }
 
 std::string FormatNumber(double value) {
-  constexpr int kEnough = std::numeric_limits<double>::max_digits10;
-  for (int digits = 6; digits < kEnough; ++digits) {
-    const std::string text = FormatRounded(value, digits);
-    if (ParseNumber(text).value == value) return text;
+  constexpr int kEnough = std::numeric_limits<double>::max_digits10, kFewest = 6;
+  constexpr int kAlwaysKept = std::numeric_limits<double>::digits10;
+  // What has few digits is its own text with more of them, without the zeros at the end. A stream
+  // for each number of digits takes minutes for a file of ten million numbers.
+  const locale_t before = uselocale(Classic());
+  char text[40];
+  // Numbers next to zero keep fewer digits.
+  int digits = std::fpclassify(value) == FP_SUBNORMAL ? kFewest : kAlwaysKept;
+  do {
+    std::snprintf(text, sizeof text, "%.*e", digits - 1, value);
+  } while (strtod_l(text, nullptr, Classic()) != value && ++digits < kEnough);
+  if (digits == kAlwaysKept) {
+    const char* end = std::strchr(text, 'e');
+    while (end > text && digits > kFewest && *(end - 1) == '0') --end, --digits;
   }
-  return FormatRounded(value, kEnough);
+  std::snprintf(text, sizeof text, "%.*g", digits, value);
+  uselocale(before);
+  return text;
 }
 
 }  // namespace cosserat_cable

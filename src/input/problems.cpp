@@ -15,21 +15,32 @@ std::string LowerCase(std::string word) {
   return word;
 }
 
+// A key or a name that is longer was not mistyped.
+constexpr std::size_t kLongestWord = 200;
+
 // Edits (insertion, deletion, substitution, swap of neighbours) that turn `a` into `b`: the
-// restricted Damerau-Levenshtein distance.
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::vector<std::size_t>> edits(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i) edits[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j) edits[0][j] = j;
+// restricted Damerau-Levenshtein distance. More than `most` where it is more.
+std::size_t EditDistance(const std::string& a, const std::string& b, std::size_t most) {
+  if (a.size() > b.size() + most || b.size() > a.size() + most) return most + 1;
+  // Rows of the table: two ago, the last, this one.
+  std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
+    row[0] = i;
+    std::size_t fewest = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = edits[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-      edits[i][j] = std::min({edits[i - 1][j] + 1, edits[i][j - 1] + 1, substitution});
+      const std::size_t substitution = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({last[j] + 1, row[j - 1] + 1, substitution});
       const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-      if (swapped) edits[i][j] = std::min(edits[i][j], edits[i - 2][j - 2] + 1);
+      if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+      fewest = std::min(fewest, row[j]);
     }
+    // A swap comes from two rows ago, which had no fewer than the last one less one.
+    if (fewest > most + 1) return most + 1;
+    before.swap(last);
+    last.swap(row);
   }
-  return edits[a.size()][b.size()];
+  return last[b.size()];
 }
 
 }  // namespace
@@ -69,14 +80,15 @@ std::string Problems::ToString() const {
 }
 
 std::string NearestWord(const std::string& word, const std::vector<std::string>& candidates) {
+  if (word.size() > kLongestWord) return "";
   const std::string wanted = LowerCase(word);
   std::string nearest;
   std::size_t fewest = 0;
   for (const std::string& candidate : candidates) {
-    const std::size_t edits = EditDistance(wanted, LowerCase(candidate));
     // A third of the longer word: a typo or two, not another word. Two-letter keys need one edit.
     const std::size_t allowed =
         std::max<std::size_t>(1, std::max(word.size(), candidate.size()) / 3);
+    const std::size_t edits = EditDistance(wanted, LowerCase(candidate), allowed);
     // One edit turns any one-letter word into any other: that says nothing about what was meant.
     const bool meant =
         edits == 0 || (edits <= allowed && edits < std::min(word.size(), candidate.size()));

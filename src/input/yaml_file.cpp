@@ -1,10 +1,10 @@
-#include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <yaml-cpp/eventhandler.h>
 
+#include <cctype>
+#include <sstream>
+#include <vector>
+
+#include "cosserat_cable/input/text_file.h"
 #include "cosserat_cable/input/yaml_value.h"
 
 namespace cosserat_cable {
@@ -54,36 +54,79 @@ BareName FindBareName(const std::string& text) {
   return {};
 }
 
+/// Where the contents of documents begin, and nothing of what they are.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override { begins_ = true; }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { Take(mark); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { Take(mark); }
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                const std::string&) override {
+    Take(mark);
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    Take(mark);
+  }
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    Take(mark);
+  }
+  void OnMapEnd() override {}
+  const std::vector<YAML::Mark>& starts() const { return starts_; }
+
+ private:
+  void Take(const YAML::Mark& mark) {
+    if (begins_) starts_.push_back(mark);
+    begins_ = false;
+  }
+
+  std::vector<YAML::Mark> starts_;
+  bool begins_ = false;
+};
+
+/// Whether a line begins with what stands between documents.
+bool HasSeparator(const std::string& text) {
+  return text.find("\n---") != std::string::npos || text.find("\n...") != std::string::npos;
+}
+
+/// Where the first two documents begin. yaml-cpp's LoadAll never comes to an end where a bracket is
+/// closed that nothing opened: each try to go on makes another document of nothing.
+std::vector<YAML::Mark> FirstDocuments(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts documents;
+  if (parser.HandleNextDocument(documents)) parser.HandleNextDocument(documents);
+  return documents.starts();
+}
+
 }  // namespace
 
 YamlValue LoadYamlFile(const std::string& path, Problems* problems) {
-  std::error_code ignored;  // what cannot be asked about cannot be opened either
-  if (std::filesystem::is_directory(path, ignored)) {
-    problems->Add(path, "got a directory, expected a YAML file");
+  const TextFile file = ReadTextFile(path, kMostOfYaml);
+  if (!file.ok) {
+    problems->Add(path, file.is.empty() ? "cannot be read: " + file.why
+                                        : "got " + file.is + ", expected a YAML file");
     return {};
   }
-  errno = 0;
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  if (!file || file.bad()) {
-    problems->Add(path, std::string("cannot be read: ") + std::strerror(errno));
-    return {};
-  }
+  const std::string& text = file.text;
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text.str());
+    const std::vector<YAML::Mark> documents = FirstDocuments(text);
     if (documents.empty()) {
       problems->Add(path, 1, "", "got an empty file, expected a YAML document");
       return {};
     }
     if (documents.size() > 1) {
-      problems->Add(path, documents[1].Mark().line + 1, "",
-                    "got a second YAML document, expected one in the file");
+      problems->Add(path, documents[1].line + 1, "",
+                    HasSeparator(text) ? "got a second YAML document, expected one in the file"
+                                       : "malformed YAML: this belongs to nothing before it");
       return {};
     }
-    return YamlValue::Root(path, documents[0], problems);
+    return YamlValue::Root(path, YAML::Load(text), problems);
   } catch (const YAML::Exception& error) {
-    if (const BareName bare = FindBareName(text.str()); bare.line > 0) {
+    if (const BareName bare = FindBareName(text); bare.line > 0) {
       problems->Add(path, bare.line, bare.name,
                     "malformed YAML: " + error.msg +
                         ": within { } and [ ] a name with brackets stands in quotes: '" +

@@ -1,16 +1,13 @@
 #include "csv_table.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <string_view>
 
 #include "cosserat_cable/input/number_text.h"
+#include "cosserat_cable/input/text_file.h"
 
 namespace cosserat_cable {
 namespace {
@@ -159,22 +156,15 @@ std::optional<CsvTable> ReadCsvTable(const std::string& folder, const std::strin
                                      const YamlValue& named_by, Problems* problems) {
   CsvTable table;
   table.path = (std::filesystem::path(folder) / name).string();
-  std::error_code ignored;  // what cannot be asked about cannot be opened either
-  if (std::filesystem::is_directory(table.path, ignored)) {
-    named_by.Report("got '" + name + "', a directory, expected a CSV file");
-    return std::nullopt;
-  }
-  errno = 0;
-  std::ifstream file(table.path, std::ios::binary);
-  std::ostringstream text;
-  if (file && file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();
-  if (!file.is_open() || file.bad()) {
-    named_by.Report("got '" + name + "', which cannot be read: " + std::strerror(errno) + ": " +
-                    table.path);
+  const TextFile file = ReadTextFile(table.path, kMostOfCsv);
+  if (!file.ok) {
+    named_by.Report("got '" + name + "', " +
+                    (file.is.empty() ? "which cannot be read: " + file.why + ": " + table.path
+                                     : file.is + ", expected a CSV file"));
     return std::nullopt;
   }
   CsvReader reader(&table, problems);
-  if (!reader.Read(text.str())) return std::nullopt;
+  if (!reader.Read(file.text)) return std::nullopt;
   return table;
 }
 

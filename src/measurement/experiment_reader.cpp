@@ -4,6 +4,7 @@
 
 #include "channel_reader.h"
 #include "cosserat_cable/input/map_reader.h"
+#include "cosserat_cable/input/number_text.h"
 #include "end_reader.h"
 #include "fault_reader.h"
 #include "load_file.h"
@@ -12,6 +13,45 @@
 
 namespace cosserat_cable {
 namespace {
+
+// Half a day. Longer ones are quasi-static, or have the times of two clocks; a thousand steps in
+// each second would fill the memory [s].
+constexpr double kLongest = 5e4;
+
+/// When the samples of a file are; nothing where they have steps, or there is one time only, which
+/// holds always.
+struct Span {
+  std::string file;
+  double begin = 0, end = 0;  // [s]
+  std::string Text() const {
+    return "from " + FormatRounded(begin, 10) + " to " + FormatRounded(end, 10) + " s";
+  }
+};
+
+std::optional<Span> SpanOf(const std::string& file, bool quasi_static,
+                           const std::vector<double>& t) {
+  if (quasi_static || t.empty() || !(t.back() > t.front())) return {};
+  return Span{file, t.front(), t.back()};
+}
+
+std::optional<Span> SpanOf(const ExperimentLoad& load) {
+  std::vector<double> t;
+  if (!load.samples.empty()) t = {load.samples.front().t, load.samples.back().t};
+  return SpanOf(load.file, load.quasi_static || load.file.empty(), t);
+}
+
+/// What is wrong with the times of a file beside the record's; empty where nothing is.
+std::string ClockProblem(const Span& of, const Span& record) {
+  if (of.end - of.begin > kLongest)
+    return "got '" + of.file + "' with times " + of.Text() + ", expected at most " +
+           FormatNumber(kLongest) + " s";
+  if (of.end >= record.begin && of.begin <= record.end) return "";
+  return "got '" + of.file + "' with times " + of.Text() + ", expected them within the record's '" +
+         record.file + "', " + record.Text() + ": where these are two clocks, take " +
+         FormatRounded(record.begin - of.begin, 10) +
+         " s off the record's times, so that both begin together, or as much less as one began "
+         "later";
+}
 
 // Names become names of files.
 std::string ReadName(const YamlValue& value) {
@@ -48,6 +88,7 @@ class ExperimentCheck {
     for (const Channel& channel : experiment_.channels) CheckChannel(channel);
     CheckTimes(experiment_.a.motion, experiment_.a.mark, "motion");
     CheckTimes(experiment_.b.motion, experiment_.b.mark, "motion");
+    CheckClocks();
   }
 
  private:
@@ -90,6 +131,32 @@ class ExperimentCheck {
     Add(mark, key,
         "got '" + motion->file + "' with another first column than the record '" +
             experiment_.record.file + "', expected `" + column + "`");
+  }
+
+  // Outside of its samples a clamp stands and a load is constant: nothing else would show it.
+  void CheckClocks() {
+    const Record& record = experiment_.record;
+    const std::optional<Span> recorded = SpanOf(record.file, record.quasi_static, record.t);
+    if (!recorded) return;
+    bool good = true;
+    const auto check = [&](const std::optional<Span>& span, const SourceMark& mark,
+                           const std::string& key) {
+      const std::string problem = span ? ClockProblem(*span, *recorded) : "";
+      if (problem.empty()) return;
+      Add(mark, key, problem);
+      good = false;
+    };
+    for (const EndCondition* end : {&experiment_.a, &experiment_.b})
+      if (end->motion)
+        check(SpanOf(end->motion->file, end->motion->quasi_static, end->motion->t), end->mark,
+              "motion");
+    check(SpanOf(experiment_.load), experiment_.mark, "load");
+    const double begin = std::min(recorded->begin, experiment_.start_time());
+    if (good && recorded->end - begin > kLongest)
+      Add(experiment_.mark, "record",
+          "got times up to " + FormatRounded(recorded->end, 10) + " s after a start at " +
+              FormatRounded(begin, 10) + " s, expected at most " + FormatNumber(kLongest) +
+              " s: are they in ms? A test that is slow has a first column `step`");
   }
 
   void Add(const SourceMark& mark, const std::string& key, const std::string& message) {

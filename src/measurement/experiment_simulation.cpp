@@ -6,6 +6,7 @@
 
 #include "channel_probe.h"
 #include "cosserat_cable/cable/cable_fleet.h"
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/rod/modes.h"
 #include "cosserat_cable/rod/rod_batch.h"
 #include "low_pass.h"
@@ -23,6 +24,8 @@ constexpr int kGrading = 10;
 // Steps between two questions whether to go on.
 constexpr int kStepsUnasked = 16;
 constexpr const char* kStopped = "stopped";
+// What is kept of each step is some hundred bytes; more would fill the memory.
+constexpr double kMostSteps = 5e7;
 // Two runs farther apart than this part of a channel's range say nothing about a third.
 constexpr double kNearEnough = 0.1;
 
@@ -135,7 +138,13 @@ void SimulateMotion(const Experiment& experiment, const SimulationOptions& optio
   std::vector<CableSimulation*> cables;
   for (Run& run : *runs) {
     const double duration = run.times.back() - experiment.start_time();
-    run.steps = 1 + std::max(1, static_cast<int>(std::ceil(duration / options.dt - 1e-9)));
+    const double steps = std::ceil(duration / options.dt - 1e-9);
+    if (!(steps <= kMostSteps))
+      Fail("takes " + FormatRounded(steps) + " steps of " + FormatNumber(options.dt) +
+               " s, at most " + FormatNumber(kMostSteps) +
+               " fit: cut the record, or take larger ones",
+           &run);
+    run.steps = run.result->ok ? 1 + std::max(1, static_cast<int>(steps)) : 1;
     cables.push_back(run.rig->cable());
   }
   CableFleet fleet(cables, 1, LoneCable::kByItself);

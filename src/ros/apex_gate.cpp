@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <map>
 
 #include "cosserat_cable/ros/conversions.h"
@@ -87,6 +88,12 @@ class Judgement {
   ApexVerdict verdict_;
 };
 
+/// Of all that is judged; a clearance of +inf says that nothing is within reach.
+bool IsFinite(const ApexTelemetry& m) {
+  return Position(m).allFinite() && Velocity(m).allFinite() && std::isfinite(m.curvature_max) &&
+         std::isfinite(m.contact_force) && m.clearance > -std::numeric_limits<double>::infinity();
+}
+
 // What a window may lack at its end: a live run stops some samples before its recording does.
 constexpr double kLateEnd = 1, kLateShare = 0.1;  // [s], of the window
 
@@ -166,6 +173,13 @@ ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
     judgement.Violate("fewer than two messages in the window");
     return judgement.verdict();
   }
+  const auto bad = std::count_if(window.begin(), window.end(),
+                                 [](const ApexTelemetry& m) { return !IsFinite(m); });
+  if (bad > 0) {
+    judgement.Violate(std::to_string(bad) + " of " + std::to_string(window.size()) +
+                      " messages have values that are not finite: nothing is judged");
+    return judgement.verdict();
+  }
   if (!AnyBound(bounds)) judgement.Violate("no bound is given: nothing is judged");
   const double last = (window.back().header.stamp - messages.front().header.stamp).toSec();
   const double allowed = std::max(kLateEnd, kLateShare * (bounds.end - bounds.start));
@@ -237,7 +251,7 @@ std::vector<ApexTelemetry> ReadApexTelemetry(const std::string& path, const std:
       }
     }
     if (messages.empty()) problems->Add(path, "no telemetry of cable '" + cable + "'");
-  } catch (const rosbag::BagException& error) {
+  } catch (const std::exception& error) {  // a damaged bag throws more than rosbag::BagException
     problems->Add(path, error.what());
   }
   return messages;

@@ -19,6 +19,23 @@ namespace {
 
 // A header of a chunk or of the file is far shorter [bytes].
 constexpr std::uint64_t kHeaderRoom = 4096;
+// What a damaged file claims to hold is not believed beyond this; rosbag's own chunks have less
+// than a megabyte and one message, and records of the index far less [bytes].
+constexpr std::uint64_t kMostOfChunk = 512 * 1024 * 1024;
+constexpr std::uint64_t kMostOfRecord = 64 * 1024 * 1024;
+// So much is read of the index at once [bytes].
+constexpr std::uint64_t kBlock = 256 * 1024;
+// The format lz4 makes no more of a byte.
+constexpr std::uint64_t kMostByLz4 = 255;
+constexpr std::uint32_t kNanosecondsPerSecond = 1'000'000'000;
+
+/// A number from the next bytes of a source.
+template <typename T, typename Source>
+T TakeNumber(Source* from) {
+  T value;
+  std::memcpy(&value, from->Take(sizeof value).data(), sizeof value);
+  return value;
+}
 constexpr std::size_t kIndexEntrySize = sizeof(BagTime) + sizeof(std::uint32_t);
 
 /// Takes numbers and pieces from bytes, from first to last.
@@ -35,12 +52,6 @@ class Cursor {
     left_ -= size;
     return piece;
   }
-  template <typename T>
-  T Number() {
-    T value;
-    std::memcpy(&value, Take(sizeof value).data(), sizeof value);
-    return value;
-  }
   const std::uint8_t* at() const { return at_; }
 
  private:
@@ -51,16 +62,16 @@ class Cursor {
 /// A record's header, and where its data begins.
 class Record {
  public:
-  explicit Record(Cursor* from) {
-    const std::string_view header = from->Take(from->Number<std::uint32_t>());
-    fields_ = Fields(header);
-    data_size = from->Number<std::uint32_t>();
+  template <typename Source>
+  explicit Record(Source* from) {
+    fields_ = Fields(from->Take(TakeNumber<std::uint32_t>(from)));
+    data_size = TakeNumber<std::uint32_t>(from);
   }
   static ros::M_string Fields(std::string_view text) {
     ros::M_string fields;
     Cursor cursor(text);
     while (!cursor.done()) {
-      const std::string_view field = cursor.Take(cursor.Number<std::uint32_t>());
+      const std::string_view field = cursor.Take(TakeNumber<std::uint32_t>(&cursor));
       const std::size_t equals = field.find('=');
       if (equals == field.npos) throw BagFormatError("a field has no name");
       fields[std::string(field.substr(0, equals))] = field.substr(equals + 1);
@@ -92,29 +103,90 @@ class Record {
   ros::M_string fields_;
 };
 
-void Decompress(const std::string& compression, std::vector<std::uint8_t>* from,
+/// Grows with what comes out, not with what was claimed.
+bool DecompressBz2(std::vector<std::uint8_t>* from, std::uint32_t size,
+                   std::vector<std::uint8_t>* to) {
+  bz_stream stream{};
+  if (BZ2_bzDecompressInit(&stream, 0, 0) != BZ_OK) return false;
+  stream.next_in = reinterpret_cast<char*>(from->data());
+  stream.avail_in = static_cast<unsigned>(from->size());
+  to->clear();
+  int state = BZ_OK;
+  while (state == BZ_OK) {
+    const std::size_t had = to->size();
+    if (had > size) break;
+    to->resize(had + std::max<std::size_t>(had, kBlock));
+    stream.next_out = reinterpret_cast<char*>(to->data() + had);
+    stream.avail_out = static_cast<unsigned>(to->size() - had);
+    state = BZ2_bzDecompress(&stream);
+    const std::size_t made = to->size() - had - stream.avail_out;
+    to->resize(had + made);
+    if (made == 0 && stream.avail_in == 0) break;  // it ends too early
+  }
+  BZ2_bzDecompressEnd(&stream);
+  return state == BZ_STREAM_END && to->size() == size;
+}
+
+bool DecompressLz4(std::vector<std::uint8_t>* from, std::uint32_t size,
+                   std::vector<std::uint8_t>* to) {
+  if (size > kMostByLz4 * from->size()) return false;
+  to->resize(size);
+  unsigned made = size;
+  return roslz4_buffToBuffDecompress(reinterpret_cast<char*>(from->data()),
+                                     static_cast<unsigned>(from->size()),
+                                     reinterpret_cast<char*>(to->data()), &made) == ROSLZ4_OK &&
+         made == size;
+}
+
+void Decompress(const std::string& compression, std::vector<std::uint8_t>* from, std::uint32_t size,
                 std::vector<std::uint8_t>* to) {
-  auto* input = reinterpret_cast<char*>(from->data());
-  auto* output = reinterpret_cast<char*>(to->data());
-  auto size = static_cast<unsigned>(to->size());
   bool good = false;
   if (compression == "none") {
     std::swap(*from, *to);
-    return;
-  }
-  if (compression == "lz4") {
-    good = roslz4_buffToBuffDecompress(input, static_cast<unsigned>(from->size()), output, &size) ==
-           ROSLZ4_OK;
+    good = to->size() == size;
+  } else if (compression == "lz4") {
+    good = DecompressLz4(from, size, to);
   } else if (compression == "bz2") {
-    good = BZ2_bzBuffToBuffDecompress(output, &size, input, static_cast<unsigned>(from->size()), 0,
-                                      0) == BZ_OK;
+    good = DecompressBz2(from, size, to);
   } else {
     throw BagFormatError("got compression '" + compression + "', expected none, lz4 or bz2");
   }
-  if (!good || size != to->size()) throw BagFormatError("a chunk cannot be decompressed");
+  if (!good) throw BagFormatError("a chunk cannot be decompressed");
 }
 
 }  // namespace
+
+/// A part of the file, from first to last. It is read in pieces: what a record claims to hold costs
+/// no memory that the file does not have.
+class BagFile::Walk {
+ public:
+  Walk(const BagFile& file, std::uint64_t begin, std::uint64_t end)
+      : file_(file), at_(begin), end_(std::max(begin, end)) {}
+
+  /// The next bytes, which stay until more are taken.
+  std::string_view Take(std::uint64_t size) {
+    if (size > bytes_.size() - used_ + (end_ - at_)) throw BagFormatError("it ends too early");
+    if (size > kMostOfRecord)
+      throw BagFormatError("a record claims to hold " + std::to_string(size) + " bytes");
+    if (size > bytes_.size() - used_) {
+      bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(used_));
+      used_ = 0;
+      const std::uint64_t more = std::min(end_ - at_, std::max(size - bytes_.size(), kBlock));
+      const std::vector<std::uint8_t> piece = file_.ReadAt(at_, more);
+      bytes_.insert(bytes_.end(), piece.begin(), piece.end());
+      at_ += more;
+    }
+    const std::string_view taken(reinterpret_cast<const char*>(bytes_.data()) + used_, size);
+    used_ += size;
+    return taken;
+  }
+
+ private:
+  const BagFile& file_;
+  std::uint64_t at_, end_;
+  std::vector<std::uint8_t> bytes_;  // before at_
+  std::uint64_t used_ = 0;           // of bytes_
+};
 
 std::string BagConnection::Field(const std::string& name) const {
   const auto field = header->find(name);
@@ -167,13 +239,12 @@ std::vector<std::uint8_t> BagFile::ReadAt(std::uint64_t position, std::uint64_t 
 
 void BagFile::ReadEnd(std::uint64_t position, std::uint32_t connections, std::uint32_t chunks,
                       const std::function<bool(const std::string&)>& topics) {
-  const std::vector<std::uint8_t> bytes = ReadAt(position, size_ - std::min(size_, position));
-  Cursor cursor(bytes.data(), bytes.size());
+  Walk walk(*this, position, size_);
   std::map<std::uint32_t, TopicContent*> content_of;  // by connection
   for (std::uint32_t i = 0; i < connections; ++i) {
-    const Record record(&cursor);
+    const Record record(&walk);
     record.Require(BagRecord::kConnection);
-    const ros::M_string header = Record::Fields(cursor.Take(record.data_size));
+    const ros::M_string header = Record::Fields(walk.Take(record.data_size));
     const std::string& topic = record.Text("topic");
     TopicContent* content = content_of[record.Number<std::uint32_t>("conn")] = &contents_[topic];
     const auto field = [&header](const char* name) {
@@ -182,21 +253,23 @@ void BagFile::ReadEnd(std::uint64_t position, std::uint32_t connections, std::ui
     };
     content->type = field("type");
     content->md5sum = field("md5sum");
-    if (topics(topic))
+    if (topics(topic)) {
+      indices_.emplace(record.Number<std::uint32_t>("conn"), connections_.size());
       connections_.push_back(
           {record.Number<std::uint32_t>("conn"), topic, boost::make_shared<ros::M_string>(header)});
+    }
   }
   for (std::uint32_t i = 0; i < chunks; ++i) {
-    const Record record(&cursor);
+    const Record record(&walk);
     record.Require(BagRecord::kChunkInfo);
     Chunk chunk;
     chunk.position = record.Number<std::uint64_t>("chunk_pos");
     chunk.connections = record.Number<std::uint32_t>("count");
-    Cursor counts(cursor.Take(record.data_size));
+    Cursor counts(walk.Take(record.data_size));
     for (std::uint32_t k = 0; k < chunk.connections; ++k) {
-      const auto connection = counts.Number<std::uint32_t>();
+      const auto connection = TakeNumber<std::uint32_t>(&counts);
       chunk.is_wanted = IndexOf(connection) >= 0 || chunk.is_wanted;
-      const auto messages = counts.Number<std::uint32_t>();
+      const auto messages = TakeNumber<std::uint32_t>(&counts);
       const auto content = content_of.find(connection);
       if (content != content_of.end()) content->second->messages += messages;
     }
@@ -207,9 +280,8 @@ void BagFile::ReadEnd(std::uint64_t position, std::uint32_t connections, std::ui
 }
 
 int BagFile::IndexOf(std::uint32_t id) const {
-  for (std::size_t i = 0; i < connections_.size(); ++i)
-    if (connections_[i].id == id) return static_cast<int>(i);
-  return -1;
+  const auto found = indices_.find(id);
+  return found == indices_.end() ? -1 : static_cast<int>(found->second);
 }
 
 // Of the chunk, whose records end at `end`.
@@ -226,9 +298,10 @@ void BagFile::ReadIndex(std::uint32_t number, std::uint64_t end) {
   chunk.size = record.data_size;
   chunk.position += static_cast<std::uint64_t>(cursor.at() - head.data());
   if (end < chunk.position + chunk.size) throw BagFormatError("a chunk ends too early");
-  const std::vector<std::uint8_t> bytes =
-      ReadAt(chunk.position + chunk.size, end - chunk.position - chunk.size);
-  Cursor index(bytes.data(), bytes.size());
+  for (const std::uint32_t size : {chunk.size, chunk.uncompressed_size})
+    if (size > kMostOfChunk)
+      throw BagFormatError("a chunk claims to hold " + std::to_string(size) + " bytes");
+  Walk index(*this, chunk.position + chunk.size, end);
   for (std::uint32_t i = 0; i < chunk.connections; ++i) {
     const Record list(&index);
     list.Require(BagRecord::kIndex);
@@ -236,10 +309,12 @@ void BagFile::ReadIndex(std::uint32_t number, std::uint64_t end) {
     const int connection = IndexOf(list.Number<std::uint32_t>("conn"));
     if (connection < 0) continue;
     for (std::size_t k = 0; k < list.data_size / kIndexEntrySize; ++k) {
-      const auto time = items.Number<BagTime>();
-      entries_.push_back({time.seconds * std::int64_t{1'000'000'000} + time.nanoseconds,
+      const auto time = TakeNumber<BagTime>(&items);
+      if (time.nanoseconds >= kNanosecondsPerSecond)
+        throw BagFormatError("a time in its index is none");
+      entries_.push_back({time.seconds * std::int64_t{kNanosecondsPerSecond} + time.nanoseconds,
                           static_cast<std::uint32_t>(connection), number,
-                          items.Number<std::uint32_t>()});
+                          TakeNumber<std::uint32_t>(&items)});
     }
   }
 }
@@ -249,8 +324,7 @@ void BagFile::Open(std::uint32_t number) {
   const Chunk& chunk = chunks_[number];
   open_chunk_ = UINT32_MAX;
   std::vector<std::uint8_t> stored = ReadAt(chunk.position, chunk.size);
-  open_bytes_.resize(chunk.uncompressed_size);
-  Decompress(chunk.compression, &stored, &open_bytes_);
+  Decompress(chunk.compression, &stored, chunk.uncompressed_size, &open_bytes_);
   open_chunk_ = number;
 }
 

@@ -11,6 +11,7 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "cosserat_cable/ros/motion_topics.h"
@@ -63,6 +64,7 @@ class BagFile {
   std::vector<std::uint8_t> Read(const Entry& entry);
 
  private:
+  class Walk;
   struct Chunk {
     std::uint64_t position = 0;  // of the record; of its data once that is known
     std::string compression;
@@ -82,6 +84,7 @@ class BagFile {
   int descriptor_ = -1;
   std::uint64_t size_ = 0;
   std::vector<BagConnection> connections_;
+  std::unordered_map<std::uint32_t, std::size_t> indices_;  // in connections_, by id
   TopicContents contents_;
   std::vector<Chunk> chunks_;
   std::vector<Entry> entries_;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bag_file.h"
+#include "bag_message_sizes.h"
 #include "cosserat_cable/ros/conversions.h"
 
 namespace cosserat_cable {
@@ -42,6 +43,8 @@ void CheckTypes(const std::string& path, const BagFile& bag, const MotionTopics&
 template <typename T>
 boost::shared_ptr<T> Deserialized(std::vector<std::uint8_t>* bytes) {
   auto message = boost::make_shared<T>();
+  // Else the claimed size of a list would be allocated before it is read.
+  if (!HoldsWhole<T>(*bytes)) throw BagFormatError("a message ends too early");
   ros::serialization::IStream stream(bytes->data(), static_cast<std::uint32_t>(bytes->size()));
   try {
     ros::serialization::deserialize(stream, *message);

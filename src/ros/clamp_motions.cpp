@@ -35,6 +35,13 @@ struct MotionFile {
 
 }  // namespace
 
+std::vector<std::string> ClampMotionFiles(const Inputs& inputs) {
+  std::vector<std::string> files;
+  for (const CableModel& cable : inputs.cables.cables)
+    for (const char* clamp : {"_a.csv", "_b.csv"}) files.push_back(cable.name + clamp);
+  return files;
+}
+
 void WriteClampMotions(const Inputs& inputs, const EngineOptions& options,
                        const std::string& folder) {
   const std::vector<CableModel>& cables = inputs.cables.cables;

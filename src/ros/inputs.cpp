@@ -33,6 +33,16 @@ std::string Join(const std::vector<std::string>& words) {
   return text;
 }
 
+// Longer than any recording; in nanoseconds it still is a number [s].
+constexpr double kLongest = 1e9;
+
+void CheckSeconds(double value, const char* option, const char* remark, Problems* problems) {
+  if (value >= 0 && value <= kLongest) return;
+  char text[120];
+  std::snprintf(text, sizeof text, "got %g, expected 0 to 1e9 s%s", value, remark);
+  problems->Add("", 0, option, text);
+}
+
 // Where the cables' clamps are when everything is first known, and whether cables can be hung
 // there.
 void CheckFirstInstant(const LinkMotion& links, std::int64_t time, const Inputs& inputs,
@@ -90,13 +100,17 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
   const BagReader& bags = *inputs->bags;
   const std::string all = Join(paths.bags);
   BagSurvey survey;
+  const double length = static_cast<double>(bags.end_time() - bags.begin_time()) * 1e-9;
+  if (paths.start > length) {
+    problems->Add(all, 0, "start",
+                  "got " + FormatRounded(paths.start, 6) + " s, but the recording lasts " +
+                      FormatRounded(length, 6) +
+                      " s: --start counts from its first message, and is no stamp");
+    return;
+  }
   survey.from = bags.begin_time() + static_cast<std::int64_t>(paths.start * 1e9);
   survey.to = paths.duration > 0 ? survey.from + static_cast<std::int64_t>(paths.duration * 1e9)
                                  : std::numeric_limits<std::int64_t>::max();
-  if (survey.from > bags.end_time()) {
-    problems->Add(all, 0, "start", "the bag ends before");
-    return;
-  }
 
   const std::vector<std::string> needed = NeededLinks(inputs->cables.cables);
   LinkMotionOptions link_options = options.links;
@@ -210,18 +224,23 @@ void CheckRecording(const InputPaths& paths, const EngineOptions& options, Input
 }  // namespace
 
 void AddReads(const InputPaths& paths, PlannedOutputs* outputs) {
-  outputs->Reads(paths.vehicle);
-  outputs->Reads(paths.cables);
+  for (const std::string& file : FilesRead(paths, {})) outputs->Reads(file);
+}
+
+std::vector<std::string> FilesRead(const InputPaths& paths, const Inputs& inputs) {
+  std::vector<std::string> files = {paths.vehicle, paths.cables};
   for (const std::string& section : paths.sections)
-    outputs->Reads(section.substr(section.find('=') + 1));
-  for (const std::string& bag : paths.bags) outputs->Reads(bag);
+    files.push_back(section.substr(section.find('=') + 1));
+  files.insert(files.end(), paths.bags.begin(), paths.bags.end());
+  files.insert(files.end(), inputs.vehicle.mesh_files.begin(), inputs.vehicle.mesh_files.end());
+  return files;
 }
 
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems) {
   Inputs inputs;
   for (const std::string& problem : options.Check()) problems->Add("", problem);
-  if (!(paths.start >= 0)) problems->Add("", 0, "start", "expected 0 s or more");
-  if (!(paths.duration >= 0)) problems->Add("", 0, "duration", "expected 0 s (all) or more");
+  CheckSeconds(paths.start, "start", "", problems);
+  CheckSeconds(paths.duration, "duration", " (0: to the recording's end)", problems);
 
   Problems cable_problems;
   inputs.cables = LoadCableFile(paths.cables, &cable_problems, paths.sections);

@@ -42,6 +42,7 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
   if (options_.judge) judge_.emplace(vehicle_, options_.max_gap);
   for (const JointModel& joint : vehicle_.joints) {
     joint_above_[joint.child] = &joint;
+    parents_.insert(joint.parent);
     joints_[joint.name] = &joint;
     if (!joint.mimic.empty()) mimics_.emplace(joint.mimic, &joint);
     const bool held =
@@ -51,6 +52,7 @@ LinkMotion::LinkMotion(const VehicleModel& vehicle, const std::vector<std::strin
                Source::kUrdf);
     }
   }
+  UpdateTree();
   for (const ConstantEdge& constant : options_.constants) {
     AddFixed(constant.parent, constant.child, constant.X_PC, Source::kTf);
     edges_.at(constant.child).is_constant = true;

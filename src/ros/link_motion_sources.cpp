@@ -88,7 +88,10 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
                                            Source source, const Pose& X_PC) {
   const auto found = edges_.find(child);
   if (found == edges_.end()) {
-    if (IsAbove(child, parent)) {
+    // The URDF is a tree, and what nothing hangs on is above nothing: a recording may have as many
+    // frames as it likes.
+    const bool may_be_above = source != Source::kUrdf && parents_.count(child) > 0;
+    if (child == parent || (may_be_above && IsAbove(child, parent))) {
       if (OutlivesRival(parent, child, source)) return AcceptSource(parent, child, source, X_PC);
       const std::string why = "'" + parent + " -> " + child + "' by " + ToString(source) +
                               " closes a loop of frames and is ignored";
@@ -100,7 +103,9 @@ LinkMotion::Edge* LinkMotion::AcceptSource(const std::string& parent, const std:
     Edge* edge = &edges_[child];
     edge->parent = parent;
     edge->source = source;
-    UpdateTree();
+    parents_.insert(parent);
+    // Elsewhere it changes no link's way up.
+    if (relevant_.count(child) > 0) UpdateTree();
     if (keeps_world_ && child == options_.world_frame)
       warnings_.Count("a frame above the inertial one came late",
                       Event("",

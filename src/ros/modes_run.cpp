@@ -34,6 +34,8 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr int kMostModes = 100;
+// Longer than any recording; in nanoseconds it still is a number [s].
+constexpr double kLongest = 1e9;
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -46,6 +48,7 @@ struct Scene {
   std::vector<Surroundings> surroundings;           // of each cable
   std::vector<std::vector<const Body*>> obstacles;  // likewise
   ModesSetting setting;
+  std::vector<std::string> files;  // that were read
 };
 
 void CheckClamps(std::size_t i, const Scene& scene, Problems* problems) {
@@ -117,7 +120,8 @@ Place ByRecording(const ModesOptions& options, const Inputs& inputs, LinkMotion*
   const auto seconds = [&](std::int64_t stamp) {
     return 1e-9 * static_cast<double>(stamp - recorded.first);
   };
-  const std::int64_t time = recorded.first + std::llround(1e9 * *options.time);
+  const std::int64_t time =
+      recorded.first + std::llround(1e9 * std::clamp(*options.time, -kLongest, kLongest));
   if (time < recorded.begin || time > recorded.end) {
     problems->Add("", 0, "time",
                   "got " + FormatNumber(*options.time) + " s, expected " +
@@ -179,6 +183,7 @@ Scene OnVehicle(const ModesOptions& options, Problems* problems) {
   if (options.bags.empty()) RefuseRecordingOptions(options, problems);
   Inputs inputs = LoadInputs(paths, options.engine, problems);
   Scene scene;
+  scene.files = FilesRead(paths, inputs);
   Place place;
   LinkMotionOptions link_options = options.engine.links;
   link_options.judge = false;
@@ -258,7 +263,7 @@ Scene Specimen(const ModesOptions& options, Problems* problems) {
   return scene;
 }
 
-void CheckOutputs(const ModesOptions& options, Problems* problems) {
+PlannedOutputs CheckOutputs(const ModesOptions& options, Problems* problems) {
   if (options.count < 1 || options.count > kMostModes)
     problems->Add(
         "", 0, "count",
@@ -268,6 +273,7 @@ void CheckOutputs(const ModesOptions& options, Problems* problems) {
   outputs.WritesFolder(options.output, "output", {"modes.json", "cables.yaml"});
   outputs.WritesFile(options.json, "json");
   outputs.Check(problems);
+  return outputs;
 }
 
 // A cable that lies too deep in a body is not where it would rest.
@@ -317,10 +323,15 @@ bool Write(const fs::path& path, const std::string& text) {
 ExitCode RunModes(ModesOptions options) {
   const Clock::time_point start = Clock::now();
   Problems problems;
-  CheckOutputs(options, &problems);
+  PlannedOutputs outputs = CheckOutputs(options, &problems);
   options.engine.ApplyGravity(&problems);
   Scene scene =
       options.vehicle.empty() ? Specimen(options, &problems) : OnVehicle(options, &problems);
+  std::vector<std::string> shapes;
+  for (const CableModel& cable : scene.cables.cables) shapes.push_back(cable.name + ".csv");
+  outputs.WritesFolder(options.output, "output", shapes);
+  scene.files.push_back(options.cables);
+  outputs.CheckReads(scene.files, &problems);
   if (!problems.empty()) {
     std::cerr << problems.ToString();
     return kExitBadInput;

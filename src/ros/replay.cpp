@@ -33,7 +33,7 @@ std::string ConfigurationOf(const std::string& output) {
   return (fs::path(output).parent_path() / fs::path(output).stem()).string() + ".cables.yaml";
 }
 
-void CheckOutputs(const ReplayOptions& options, Problems* problems) {
+PlannedOutputs CheckOutputs(const ReplayOptions& options, Problems* problems) {
   if (options.inputs.bags.empty()) problems->Add("", 0, "bag", "no recording is given");
   PlannedOutputs outputs;
   AddReads(options.inputs, &outputs);
@@ -41,6 +41,7 @@ void CheckOutputs(const ReplayOptions& options, Problems* problems) {
   outputs.WritesFile(ConfigurationOf(options.output), "output");
   outputs.WritesFile(options.json, "json");
   outputs.Check(problems);
+  return outputs;
 }
 
 void Say(CableEngine* engine) {
@@ -108,9 +109,10 @@ bool Simulate(const Inputs& inputs, CableEngine* engine, BagSink* sink) {
 ExitCode RunReplay(ReplayOptions options) {
   const auto start = std::chrono::steady_clock::now();
   Problems problems;
-  CheckOutputs(options, &problems);
+  PlannedOutputs outputs = CheckOutputs(options, &problems);
   options.engine.ApplyGravity(&problems);
   Inputs inputs = LoadInputs(options.inputs, options.engine, &problems);
+  outputs.CheckReads(inputs.vehicle.mesh_files, &problems);
   if (problems.empty())
     for (const Finding& finding : inputs.survey->findings)
       if (finding.kind == "one_instant") problems.Add("", finding.ToString());

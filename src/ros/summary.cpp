@@ -4,10 +4,11 @@
 
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <sstream>
+#include <stdexcept>
 
 #include "cosserat_cable/cable/contact_stiffness.h"
+#include "cosserat_cable/console/output_file.h"
 #include "cosserat_cable/input/gravity.h"
 #include "json.h"
 
@@ -31,6 +32,8 @@ constexpr double kNothingLostOfTravel = 1e-5;  // of the kinetic energy
 
 // A wire that is pulled taut within a step may lack 5 %; more is no simulation of the cable.
 constexpr double kLacksTooMuch = 0.1;
+// What is lacking counts as damping that nobody put in.
+constexpr double kLacksToBeTold = 0.02;
 
 /// The balance's residual as a share of what was dissipated; negative where nothing was.
 double EnergyError(const CableSummary& cable) {
@@ -41,6 +44,27 @@ double EnergyError(const CableSummary& cable) {
 std::string EnergyColumn(const CableSummary& cable) {
   const double error = EnergyError(cable);
   return error < 0 ? "-" : Format("%.3f", 100 * error) + "%";
+}
+
+/// How far the balance is off, and what that is relative to; "" where it is not worth a word.
+std::string EnergyRemark(const CableSummary& cable) {
+  const double error = EnergyError(cable);
+  if (!(error > kLacksToBeTold)) return "";
+  std::string text = "its energy balance is off by " + Format("%.3g", cable.energy_residual) +
+                     " J, " + Format("%.0f", 100 * error) + " % of what was dissipated";
+  // A stiff cable that travels with its clamps dissipates next to nothing of what it is given.
+  if (cable.kinetic_max > 0)
+    text += " (" + Format("%.2g", 100 * std::abs(cable.energy_residual) / cable.kinetic_max) +
+            " % of its largest kinetic energy)";
+  if (error > kLacksTooMuch)
+    return "warning: " + text +
+           ": do not rely on its damping; try shorter steps (--dt; half of one leaves a quarter) "
+           "or "
+           "another number of elements";
+  return "note: " + text +
+         ": that acts as damping that nobody put in; shorter steps (--dt) make it less, half of "
+         "one "
+         "a quarter";
 }
 
 }  // namespace
@@ -84,13 +108,13 @@ std::string Summary::ToText() const {
     if (cable.stiffness_needed > 0) text << "  warning: " << cable.DepthWarning() << "\n";
     if (!cable.long_elements.empty()) text << "  warning: " << cable.long_elements << "\n";
     if (!cable.rest_remark.empty()) text << "  warning: " << cable.rest_remark << "\n";
-    if (EnergyError(cable) > kLacksTooMuch)
-      text << "  warning: its energy balance is off by " << Format("%.3g", cable.energy_residual)
-           << " J, " << Format("%.0f", 100 * EnergyError(cable))
-           << " % of what was dissipated: do not rely on it; try shorter steps (--dt) or another "
-              "number of elements\n";
+    if (const std::string remark = EnergyRemark(cable); !remark.empty())
+      text << "  " << remark << "\n";
     if (!cable.failure.empty()) text << "  FAILED: " << cable.failure << "\n";
   }
+  if (!cables.empty())
+    text << "energy off by: what each cable's energies do not add up to, in % of what the cable "
+            "dissipated; -: it dissipated nothing to speak of\n";
   if (resets > 0)
     text << "the cables settled anew " << resets
          << " times: time ran backwards or jumped, or frames changed\n";
@@ -151,7 +175,10 @@ std::string Summary::ToJson() const {
          << ", \"contact_force_max\": " << JsonNumber(cable.contact_force_max)
          << ", \"tension_max\": " << JsonNumber(cable.tension_max) << JsonClamps(cable.clamps)
          << ", \"dissipated\": " << JsonNumber(cable.dissipated)
-         << ", \"energy_residual\": " << JsonNumber(cable.energy_residual) << ", \"failure\": "
+         << ", \"energy_residual\": " << JsonNumber(cable.energy_residual)
+         << ", \"energy_off_by\": "
+         << (EnergyError(cable) < 0 ? "null" : JsonNumber(EnergyError(cable)))
+         << ", \"kinetic_max\": " << JsonNumber(cable.kinetic_max) << ", \"failure\": "
          << (cable.failure.empty() ? std::string("null") : JsonString(cable.failure)) << "}";
     separator = ",";
   }
@@ -166,10 +193,12 @@ double PeakMemory() {
 }
 
 bool WriteTextFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text;
-  file.close();
-  return !file.fail();
+  try {
+    WriteWhole(path, text);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
 }
 
 }  // namespace cosserat_cable

@@ -1,6 +1,7 @@
 #include "collision.h"
 
 #include <filesystem>
+#include <set>
 
 namespace cosserat_cable {
 namespace {
@@ -109,6 +110,34 @@ Pose ToPose(const urdf::Pose& pose) {
 
 const char* ElementName(GeometryKind kind) {
   return kind == GeometryKind::kCollision ? "collision" : "visual";
+}
+
+std::vector<std::string> MeshFiles(const tinyxml2::XMLElement& robot, const std::string& path,
+                                   const PackageFinder& find_package) {
+  std::set<std::string> names;
+  for (const auto* link = robot.FirstChildElement("link"); link;
+       link = link->NextSiblingElement("link"))
+    for (const GeometryKind kind : {GeometryKind::kCollision, GeometryKind::kVisual})
+      for (const auto* e = link->FirstChildElement(ElementName(kind)); e;
+           e = e->NextSiblingElement(ElementName(kind))) {
+        const auto* geometry = e->FirstChildElement("geometry");
+        const auto* mesh = geometry ? geometry->FirstChildElement("mesh") : nullptr;
+        if (const char* name = mesh ? mesh->Attribute("filename") : nullptr) names.insert(name);
+      }
+  // Looking for a package walks over folders: once for each.
+  std::map<std::string, std::string> packages;
+  const PackageFinder find = [&](const std::string& package) {
+    const auto [known, is_new] = packages.try_emplace(package);
+    if (is_new) known->second = find_package(package);
+    return known->second;
+  };
+  std::vector<std::string> files;
+  for (const std::string& name : names) {
+    std::string error;
+    const std::string file = ResolveMesh(name, path, find, &error);
+    if (!file.empty()) files.push_back(file);
+  }
+  return files;
 }
 
 std::vector<Shape> LoadGeometry(const urdf::Link& link, GeometryKind kind,

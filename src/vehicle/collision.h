@@ -27,6 +27,11 @@ enum class GeometryKind { kCollision, kVisual };
 /// The name of the XML element: "collision" or "visual".
 const char* ElementName(GeometryKind kind);
 
+/// All files that the URDF at `path` means by the names of its meshes, used or not, that can be
+/// found.
+std::vector<std::string> MeshFiles(const tinyxml2::XMLElement& robot, const std::string& path,
+                                   const PackageFinder& find_package);
+
 /// The shapes of `link`, which is written in `element` of the file `path`, but for those with a
 /// size of zero. Mesh names: package://, file://, absolute, or relative to the file.
 std::vector<Shape> LoadGeometry(const urdf::Link& link, GeometryKind kind,

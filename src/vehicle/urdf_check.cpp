@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 #include <sstream>
+#include <unordered_map>
 #include <vector>
 
 #include "cosserat_cable/input/number_text.h"
@@ -19,6 +20,9 @@ enum class Range { kFinite, kNotNegative };
 const std::vector<std::string> kJointTypes = {"fixed",     "revolute", "continuous",
                                               "prismatic", "floating", "planar"};
 const std::vector<std::string> kGeometries = {"mesh", "box", "cylinder", "sphere"};
+
+// A file of another vehicle has as many unknown names as names: more are not compared with all.
+constexpr int kMostSuggestions = 50;
 
 std::string Nearest(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string nearest = NearestWord(word, candidates);
@@ -39,6 +43,8 @@ class UrdfCheck {
   void Run() {
     Collect("link", &links_);
     Collect("joint", &joints_);
+    link_of_.insert(links_.begin(), links_.end());
+    joint_of_.insert(joints_.begin(), joints_.end());
     FindUsedJoints();
     if (links_.empty()) Add(robot_, "robot", "has no link");
     for (const auto& [name, link] : links_) CheckLink(name, *link);
@@ -105,17 +111,21 @@ class UrdfCheck {
     return kind + "[" + name + "]";
   }
 
+  /// For a name that is not among these elements'.
+  std::string Suggestion(const std::string& name, const Named& elements) {
+    return ++suggestions_ > kMostSuggestions ? "" : Nearest(name, Names(elements));
+  }
+
   static std::vector<std::string> Names(const Named& elements) {
     std::vector<std::string> names;
     for (const auto& element : elements) names.push_back(element.first);
     return names;
   }
 
-  static const XMLElement* Find(const Named& elements, const std::string& name) {
-    for (const auto& [known, element] : elements) {
-      if (known == name) return element;
-    }
-    return nullptr;
+  using ByName = std::unordered_map<std::string, const XMLElement*>;
+  static const XMLElement* Find(const ByName& elements, const std::string& name) {
+    const auto found = elements.find(name);
+    return found == elements.end() ? nullptr : found->second;
   }
 
   /// Checks an attribute of `count` numbers, and returns them; empty where it is missing or wrong.
@@ -277,22 +287,23 @@ class UrdfCheck {
     CheckNumbers(*mimic, key, "offset", 1, Range::kFinite, false);
     if (!IsUsed(name)) return;
     const std::string leader = mimic->Attribute("joint") ? mimic->Attribute("joint") : "";
-    if (!Find(joints_, leader)) {
+    if (!Find(joint_of_, leader)) {
       Add(*mimic, key + ".joint",
-          "there is no joint '" + leader + "'" + Nearest(leader, Names(joints_)));
+          "there is no joint '" + leader + "'" + Suggestion(leader, joints_));
       return;
     }
     std::set<std::string> seen = {name};
     std::string next = leader;
-    while (!next.empty()) {
+    while (!next.empty() && leading_.count(next) == 0) {
       if (!seen.insert(next).second) {
         Add(*mimic, key, "joints follow each other in a circle");
         return;
       }
-      const XMLElement* followed = Find(joints_, next);
+      const XMLElement* followed = Find(joint_of_, next);
       const XMLElement* follows = followed ? followed->FirstChildElement("mimic") : nullptr;
       next = follows && follows->Attribute("joint") ? follows->Attribute("joint") : "";
     }
+    leading_.merge(seen);
   }
 
   /// The link that a joint's <parent> or <child> names; "" where it is missing or unknown.
@@ -304,8 +315,8 @@ class UrdfCheck {
       return "";
     }
     const std::string link = element->Attribute("link");
-    if (Find(links_, link)) return link;
-    Add(*element, key, "there is no link '" + link + "'" + Nearest(link, Names(links_)));
+    if (Find(link_of_, link)) return link;
+    Add(*element, key, "there is no link '" + link + "'" + Suggestion(link, links_));
     return "";
   }
 
@@ -332,15 +343,17 @@ class UrdfCheck {
     for (const auto& [name, link] : links_) {
       std::set<std::string> seen;
       std::string top = name;
-      while (above.count(top) > 0 && seen.insert(top).second) top = above[top].first;
-      if (above.count(top) > 0) {
+      while (above.count(top) > 0 && rooted_.count(top) == 0 && seen.insert(top).second)
+        top = above[top].first;
+      if (above.count(top) > 0 && rooted_.count(top) == 0) {
         Add(*above[name].second, Key("link", name), "joints close a loop above this link");
         return;
       }
-      if (top == name) roots.push_back(name);
+      if (above.count(name) == 0) roots.push_back(name);
+      rooted_.merge(seen);
     }
     for (std::size_t i = 1; i < roots.size(); ++i) {
-      Add(*Find(links_, roots[i]), Key("link", roots[i]),
+      Add(*Find(link_of_, roots[i]), Key("link", roots[i]),
           "has no parent, but the root is '" + roots[0] + "' already: a vehicle is one tree");
     }
   }
@@ -352,6 +365,10 @@ class UrdfCheck {
   Problems& warnings_;
   Problems& notes_;
   Named links_, joints_;
+  ByName link_of_, joint_of_;
+  std::set<std::string> rooted_;   // links above which no loop is
+  std::set<std::string> leading_;  // joints that follow no circle
+  int suggestions_ = 0;
   std::set<std::string> used_joints_;
 };
 

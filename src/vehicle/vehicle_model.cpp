@@ -5,7 +5,10 @@
 #include <urdf_world/types.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <set>
+#include <unordered_map>
 
 #include "collision.h"
 #include "cosserat_cable/math/rotation.h"
@@ -16,6 +19,9 @@ namespace cosserat_cable {
 namespace {
 
 using tinyxml2::XMLElement;
+
+// Far more than any vehicle has; it is read whole [bytes].
+constexpr std::uintmax_t kMostOfUrdf = 64 * 1024 * 1024;
 
 /// A range of nothing and a velocity of zero stand where somebody had to write something.
 void ReadLimits(const urdf::Joint& joint, JointModel* model) {
@@ -64,18 +70,30 @@ JointModel ToJoint(const urdf::Joint& joint) {
 /// Makes every joint follow the head of its chain. One that follows nobody, or itself, is on its
 /// own: no cable uses it.
 void ResolveMimicChains(VehicleModel* vehicle) {
+  std::unordered_map<std::string, JointModel*> joints;
+  for (JointModel& joint : vehicle->joints) joints.emplace(joint.name, &joint);
+  std::set<const JointModel*> resolved;
   for (JointModel& joint : vehicle->joints) {
-    for (std::size_t followed = 0; !joint.mimic.empty(); ++followed) {
-      const JointModel* found = vehicle->FindJoint(joint.mimic);
-      if (!found || followed > vehicle->joints.size()) {
-        joint.mimic.clear();
+    // Up to a head, or to one whose head is known; each is walked over once.
+    std::vector<JointModel*> chain;
+    for (JointModel* at = &joint; resolved.insert(at).second && !at->mimic.empty();) {
+      const auto leader = joints.find(at->mimic);
+      const bool circle = leader != joints.end() &&
+                          std::find(chain.begin(), chain.end(), leader->second) != chain.end();
+      if (leader == joints.end() || leader->second == at || circle) {
+        at->mimic.clear();
         break;
       }
-      const JointModel& leader = *found;
-      if (leader.mimic.empty()) break;
-      joint.mimic = leader.mimic;
-      joint.mimic_offset += joint.mimic_multiplier * leader.mimic_offset;
-      joint.mimic_multiplier *= leader.mimic_multiplier;
+      chain.push_back(at);
+      at = leader->second;
+    }
+    for (auto follower = chain.rbegin(); follower != chain.rend(); ++follower) {
+      JointModel& follows = **follower;
+      const JointModel& leader = *joints.at(follows.mimic);
+      if (leader.mimic.empty()) continue;
+      follows.mimic = leader.mimic;
+      follows.mimic_offset += follows.mimic_multiplier * leader.mimic_offset;
+      follows.mimic_multiplier *= leader.mimic_multiplier;
     }
   }
 }
@@ -92,7 +110,14 @@ int CountElements(const XMLElement& link, GeometryKind kind) {
 XMLElement* OpenUrdf(const std::string& path, tinyxml2::XMLDocument* document, Problems* problems) {
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error)) {
-    problems->Add(path, "no such file");
+    problems->Add(path, std::filesystem::exists(path, error)
+                            ? "got a directory, a device or a pipe, expected a URDF file"
+                            : "no such file");
+    return nullptr;
+  }
+  if (std::filesystem::file_size(path, error) > kMostOfUrdf) {
+    problems->Add(path, "got a file of more than " + std::to_string(kMostOfUrdf) +
+                            " bytes, expected a URDF file");
     return nullptr;
   }
   if (document->LoadFile(path.c_str()) != tinyxml2::XML_SUCCESS) {
@@ -150,6 +175,7 @@ VehicleModel LoadVehicle(const std::string& path, const std::vector<std::string>
     vehicle.entries[NameOf(*e)] = {e->GetLineNum(), CountElements(*e, GeometryKind::kCollision),
                                    CountElements(*e, GeometryKind::kVisual)};
   }
+  vehicle.mesh_files = MeshFiles(*robot, path, find_package);
   Problems found, complaints;
   CheckUrdf(*robot, path, {collision_links, use.visual_links, use.moving_links}, &found,
             &vehicle.warnings, &vehicle.notes);

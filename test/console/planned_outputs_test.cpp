@@ -58,6 +58,25 @@ TEST_F(PlannedOutputsTest, NorIsItByTheNameUnderWhichAFileIsWritten) {
   EXPECT_NE(Said().find("would be lost"), std::string::npos) << Said();
 }
 
+TEST_F(PlannedOutputsTest, NorIsAnotherOutputByThatName) {
+  outputs_.WritesFile(Path("out.bag"), "output");
+  outputs_.WritesFile(Path("out.bag.active"), "json");
+  EXPECT_NE(Said().find("json: is what --output writes, too"), std::string::npos) << Said();
+}
+
+TEST_F(PlannedOutputsTest, NorIsAHardLinkOrWhatIsKnownLater) {
+  fs::create_hard_link(Path("car.urdf"), Path("hard"));
+  outputs_.WritesFile(Path("hard"), "json");
+  outputs_.WritesFolder(folder_.string(), "output", {"old.json"});
+  EXPECT_EQ(Said(), "");
+  Problems problems;
+  outputs_.CheckReads({Path("car.urdf"), Path("old.json")}, &problems);
+  const std::string said = problems.ToString();
+  EXPECT_NE(said.find("json: '" + Path("car.urdf") + "' is read by this run"), std::string::npos);
+  EXPECT_NE(said.find("output: '" + Path("old.json") + "' is read by this run"), std::string::npos);
+  EXPECT_EQ(problems.all().size(), 2u);
+}
+
 TEST_F(PlannedOutputsTest, AFilesOfAFolderIsNoInputEither) {
   std::ofstream(Path("identified_cable.yaml")) << "x";
   outputs_.Reads(Path("identified_cable.yaml"));

@@ -89,5 +89,21 @@ TEST(NumberSpec, HintsOnlyAboveItsRange) {
   EXPECT_EQ(spec.HintFor(-1), "");
 }
 
+TEST(FormatNumber, HasNoMoreDigitsThanItNeeds) {
+  const std::pair<double, const char*> cases[] = {
+      {0, "0"},
+      {0.1, "0.1"},
+      {-2.5, "-2.5"},
+      {1e6, "1e+06"},
+      {1234567, "1234567"},
+      {1e15, "1e+15"},
+      {1e-5, "1e-05"},
+      {0.1 + 0.2, "0.30000000000000004"},
+      {1.0 / 3, "0.3333333333333333"},
+      {4.94066e-324, "4.94066e-324"},
+      {1.7976931348623157e308, "1.7976931348623157e+308"}};
+  for (const auto& [value, text] : cases) EXPECT_EQ(FormatNumber(value), text);
+}
+
 }  // namespace
 }  // namespace cosserat_cable

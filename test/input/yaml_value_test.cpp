@@ -301,6 +301,22 @@ TEST(LoadYamlFile, ReportsEmptyFilesAndSecondDocuments) {
             two.path() + ":3: got a second YAML document, expected one in the file\n");
 }
 
+// yaml-cpp makes documents without an end of the first two.
+TEST(LoadYamlFile, ABracketThatClosesNothingIsTold) {
+  for (const auto& [text, line] :
+       {std::pair<const char*, const char*>{"   , a, b]\n\n  - name: b\n", ":1: "},
+        {", a", ":1: "},
+        {"a: [1, 2]]\n", ":1: malformed YAML: "},
+        {"a: {b: 1}\n}\n", ":2: malformed YAML: "},
+        {"]", ":1: "}}) {
+    const TemporaryFile file(text);
+    Problems problems;
+    MapReader map(LoadYamlFile(file.path(), &problems));
+    const std::string said = problems.ToString();
+    EXPECT_EQ(said.rfind(file.path() + line, 0), 0u) << text << "\n" << said;
+  }
+}
+
 TEST(LoadYamlFile, SurvivesBytesThatAreNoText) {
   const TemporaryFile noise(std::string("\x00\xff\xfe{[\x01\x80", 7));
   Problems problems;

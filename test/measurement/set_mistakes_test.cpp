@@ -229,6 +229,40 @@ TEST(SetMistakes, Files) {
             kYaml + "17: experiments[0].record: got 'torsion', a directory, expected a CSV file\n");
 }
 
+TEST(SetMistakes, FilesOfTwoClocks) {
+  // The arch's record has stamps since 1970, its shaker and its load begin at zero.
+  const std::string epoch = "t,apex,torque\n1700000000.1,1.5,0.01\n1700000000.2,-0.1,0.02\n";
+  const std::string said = SaidOf("arch.csv", epoch);
+  for (const char* words :
+       {"a.motion: got 'shaker.csv' with times from 0 to 1 s, expected them within the record's "
+        "'arch.csv', from 1700000000 to 1700000000 s",
+        "b.motion: got 'shaker.csv'", "load: got 'pull.csv' with times from 0 to 1 s",
+        "two clocks, take 1700000000 s off the record's times"}) {
+    EXPECT_NE(said.find(words), std::string::npos) << words << "\n" << said;
+  }
+  EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 3) << said;
+  // Touching at one time is within.
+  EXPECT_EQ(SaidOf("arch.csv", "t,apex,torque\n1,1.5,0.01\n2,-0.1,0.02\n"), "");
+  // One time only holds always.
+  EXPECT_EQ(SaidOf("pull.csv", "t,s,fx,fy,fz\n7,0.05,0,0,1\n"), "");
+}
+
+TEST(SetMistakes, TimesThatNoTestLasts) {
+  const std::string said =
+      SaidOf("ringdown_small.csv", "t,tip_x,tip_z\n0,0.01,0.249\n1000000,0.007,0.2495\n");
+  EXPECT_NE(said.find("record: got times up to 1000000 s after a start at 0 s, expected at most "
+                      "50000 s"),
+            std::string::npos)
+      << said;
+  // From the first time of a motion to the record's last, however short both are.
+  const std::string motion = SaidOf("shaker.csv",
+                                    "t,x,y,z,qx,qy,qz,qw\n-9e9,0,0,0,0,0,0,1\n"
+                                    "0.15,0,0,0,0,0,0,1\n");
+  EXPECT_NE(motion.find("a.motion: got 'shaker.csv' with times from -9000000000 to 0.15 s"),
+            std::string::npos)
+      << motion;
+}
+
 TEST(SetMistakes, Records) {
   const std::string file = "ringdown_small.csv";
   const std::string header = "t,tip_x,tip_z\n";

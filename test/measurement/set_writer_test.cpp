@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -138,7 +139,8 @@ TEST(SetWriter, KeepsEveryBitOfEveryNumber) {
     Experiment& experiment = set.experiments[0];
     const auto values = *rc::gen::container<std::vector<double>>(8, Doubles());
     for (int i = 0; i < 8; ++i) experiment.record.values(i / 2, i % 2) = values[i];
-    experiment.record.t = {values[0], 0, 0, 0};
+    // Times, too, as far from zero as a record may begin.
+    experiment.record.t = {std::clamp(values[0], -1e12, 1e12), 0, 0, 0};
     for (int i = 1; i < 4; ++i)
       experiment.record.t[i] =
           std::nextafter(experiment.record.t[i - 1], std::numeric_limits<double>::max());

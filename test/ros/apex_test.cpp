@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "cosserat_cable/ros/apex_gate.h"
 #include "cosserat_cable/ros/apex_history.h"
@@ -113,6 +114,36 @@ TEST(ApexGateTest, WhatIsNotJudgedDoesNotPass) {
   ASSERT_EQ(Judge(messages, {}, bounds).violations.size(), 1u);
   EXPECT_NE(Judge(messages, {}, bounds).violations[0].find("the telemetry ends at 2.000 s"),
             std::string::npos);
+}
+
+TEST(ApexGateTest, TelemetryThatIsNotFiniteDoesNotPass) {
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  ApexBounds bounds;
+  bounds.peak_to_peak_max = 1;
+  bounds.max_penetration = 1;
+  bounds.max_curvature = 100;
+  bounds.max_contact_force = 100;
+  auto good = Swing(0.002, 10, 200, 2);
+  for (ApexTelemetry& m : good) m.bodies = 1;
+  EXPECT_TRUE(Judge(good, {}, bounds).violations.empty());
+  const auto with = [&](auto set, double value) {
+    auto messages = good;
+    set(&messages[100]) = value;
+    return Judge(messages, {}, bounds).violations;
+  };
+  const auto refused = [](const std::vector<std::string>& violations) {
+    return violations.size() == 1 && violations[0].find("1 of 401") != std::string::npos;
+  };
+  for (const double value : {kNan, -kInf}) {
+    EXPECT_TRUE(refused(with([](auto* m) -> double& { return m->position_y; }, value)));
+    EXPECT_TRUE(refused(with([](auto* m) -> double& { return m->velocity_x; }, value)));
+    EXPECT_TRUE(refused(with([](auto* m) -> double& { return m->curvature_max; }, value)));
+    EXPECT_TRUE(refused(with([](auto* m) -> double& { return m->contact_force; }, value)));
+    EXPECT_TRUE(refused(with([](auto* m) -> double& { return m->clearance; }, value)));
+  }
+  // Nothing within reach.
+  EXPECT_TRUE(with([](auto* m) -> double& { return m->clearance; }, kInf).empty());
 }
 
 TEST(ApexGateTest, MissingBagIsAProblem) {

@@ -8,7 +8,7 @@ enum ExitCode {
   kExitBadInput = 2,      ///< every problem was listed, nothing was written
   kExitFailed = 3,        ///< the simulation failed for at least one cable; what exists was kept
   kExitFileTrouble = 4,   ///< a file could not be read or written whole; what exists was kept
-  kExitInterrupted = 130  ///< by SIGINT or SIGTERM; what exists was kept
+  kExitInterrupted = 130  ///< by SIGINT, SIGTERM or SIGHUP; what exists was kept
 };
 
 }  // namespace cosserat_cable

@@ -1,4 +1,5 @@
-// SIGINT and SIGTERM as a flag that is asked for between two messages, so that files can be closed.
+// SIGINT, SIGTERM and SIGHUP as a flag that is asked for between two messages, so that files can be
+// closed.
 #pragma once
 
 namespace cosserat_cable {

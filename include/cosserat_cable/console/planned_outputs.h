@@ -22,6 +22,9 @@ class PlannedOutputs {
   /// Tells every output that is a file of the run's input or another of its outputs, no regular
   /// file (a device, a pipe, a folder), or in a place where nothing can be written.
   void Check(Problems* problems) const;
+  /// What is known to be read only once other inputs are: as Reads and the part of Check that
+  /// concerns these files, and nothing else.
+  void CheckReads(const std::vector<std::string>& files, Problems* problems);
 
  private:
   struct Output {
@@ -29,6 +32,10 @@ class PlannedOutputs {
     bool is_folder = false;
     bool in_folder = false;  // of an output, which may not be there yet
   };
+  /// Whether the output is one of the files, which is told.
+  static bool IsRead(const Output& output, const std::vector<std::string>& files,
+                     Problems* problems);
+
   std::vector<std::string> inputs_;
   std::vector<Output> outputs_;
 };

@@ -42,8 +42,8 @@ struct ApexVerdict {
 double PeakToPeak(const std::vector<ApexTelemetry>& messages, char axis);
 
 /// Judges messages in the order of their stamps. These are violations, too: no message in the
-/// window, telemetry that ends long before it, no bound at all, and a bound on clearance or contact
-/// of a cable that has nothing to touch.
+/// window, telemetry that ends long before it or is not finite, no bound at all, and a bound on
+/// clearance or contact of a cable that has nothing to touch.
 /// @param comparison another run's messages, where max_rms_difference is asked for
 ApexVerdict Judge(const std::vector<ApexTelemetry>& messages,
                   const std::vector<ApexTelemetry>& comparison, const ApexBounds& bounds);

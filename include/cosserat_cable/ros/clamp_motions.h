@@ -2,10 +2,14 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "cosserat_cable/ros/inputs.h"
 
 namespace cosserat_cable {
+
+/// The names of the files that WriteClampMotions writes: NAME_a.csv and NAME_b.csv of each cable.
+std::vector<std::string> ClampMotionFiles(const Inputs& inputs);
 
 /// Writes folder/NAME_a.csv and folder/NAME_b.csv for each cable: t [s], time of stamps; x, y, z
 /// [m] and qx, qy, qz, qw of its clamps in the inertial frame, at the instants of telemetry. Where

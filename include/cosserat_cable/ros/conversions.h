@@ -6,6 +6,7 @@
 #include <geometry_msgs/Transform.h>
 #include <ros/time.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -16,9 +17,11 @@ namespace cosserat_cable {
 inline std::int64_t ToNanoseconds(const ros::Time& time) {
   return static_cast<std::int64_t>(time.toNSec());
 }
+/// The nearest that messages can say: from 1970 to 2106.
 inline ros::Time ToRosTime(std::int64_t nanoseconds) {
+  static const auto kLast = static_cast<std::int64_t>(ros::TIME_MAX.toNSec());
   ros::Time time;
-  time.fromNSec(static_cast<std::uint64_t>(nanoseconds));
+  time.fromNSec(static_cast<std::uint64_t>(std::clamp<std::int64_t>(nanoseconds, 0, kLast)));
   return time;
 }
 

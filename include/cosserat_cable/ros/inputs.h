@@ -28,6 +28,11 @@ struct InputPaths {
 /// What a run with these inputs reads.
 void AddReads(const InputPaths& paths, PlannedOutputs* outputs);
 
+struct Inputs;
+
+/// All files that a run with these inputs has read, with the meshes that its vehicle names.
+std::vector<std::string> FilesRead(const InputPaths& paths, const Inputs& inputs);
+
 /// What the bags will do to the cables.
 struct BagSurvey {
   std::int64_t from = 0, to = 0;   ///< the part to be replayed, by time of recording [ns]

@@ -266,6 +266,7 @@ class LinkMotion {
   std::vector<std::string> links_;
   LinkMotionOptions options_;
   std::map<std::string, const JointModel*> joint_above_;  // by child
+  std::set<std::string> parents_;                         // of an edge or a joint
   std::multimap<std::string, const JointModel*> mimics_;  // by the joint they follow
   std::map<std::string, const JointModel*> joints_;       // by name
   std::vector<std::string> named_;                        // in the last joint state

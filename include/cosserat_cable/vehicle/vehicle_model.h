@@ -53,6 +53,8 @@ struct VehicleModel {
   /// By link; only those of `collision_links` that have collision geometry with an extent.
   std::map<std::string, std::vector<Shape>> collision;
   std::map<std::string, std::vector<Shape>> visual;  ///< likewise, of VehicleUse::visual_links
+  /// That the URDF names, used or not.
+  std::vector<std::string> mesh_files;
   Problems warnings;  ///< what contradicts itself, and is taken by urdfdom all the same
   Problems notes;     ///< what is worth knowing, and stops nothing
 
