@@ -20,10 +20,12 @@ constexpr int kElementsTried[] = {kElements, 24, 32, 40, 64, 80, 160};
 // Of the samples' median interval, since a record shows nothing faster than its samples; and by how
 // far a motion turns its phase in a step [rad]; within bounds.
 constexpr double kStepOfInterval = 0.25, kStepOfMotion = 0.1;
-constexpr double kSmallestStep = 1e-3, kLargestStep = 1e-2;  // [s]
-// In a step so large the phase is wrong by a hundredth already: no bound keeps a step there.
-constexpr double kMostOfMotion = 0.3;
-constexpr double kFinest = 1e-4;  // [s]
+constexpr double kSmallestStep = 1e-3, kLargestStep = 5e-3;  // [s]
+// In a step so large the phase is wrong by a hundredth already: no bound keeps a step there. And
+// one so small that nothing else that is slow asks for smaller ones.
+constexpr double kMostOfMotion = 0.3, kLeastOfMotion = 0.02;
+constexpr double kLargestOfSlow = 2e-2;  // [s]
+constexpr double kFinest = 1e-4;         // [s]
 // Rms of what the steps do, in parts of a channel's range, that asks for finer ones. What they do
 // in a few samples only, at a shock, does not: those count less.
 constexpr double kTooFar = 0.02;
@@ -70,8 +72,11 @@ double StepFor(const Record& record) {
   const double of_motion = fastest > 0 ? kStepOfMotion / fastest : kLargestStep;
   const double smallest =
       fastest > 0 ? std::min(kSmallestStep, kMostOfMotion / fastest) : kSmallestStep;
+  const double largest = fastest > 0
+                             ? std::clamp(kLeastOfMotion / fastest, kLargestStep, kLargestOfSlow)
+                             : kLargestStep;
   return std::clamp(std::max(kStepOfInterval * MedianInterval(record.t), of_motion), smallest,
-                    kLargestStep);
+                    largest);
 }
 
 /// Per sample, the part of all that the record moves that it has moved until then: squares of the

@@ -15,9 +15,9 @@ NUMBERS = {
                      'marker-rate', 'amplitude-window'),
     'cable_modes': ('count', 'time', 'max-gap', 'smooth'),
     'cable_simulate': ('dt', 'elements'),
-    'cable_identify': ('uncertain-clamp', 'uncertain-length', 'time-limit', 'plan-accuracy',
+    'cable_identify': ('uncertain-clamp', 'uncertain-length', 'time-budget', 'plan-accuracy',
                        'plan-longest', 'plan-shortest'),
-    'cable_diagnose': ('time-limit',)}
+    'cable_diagnose': ('time-budget',)}
 
 
 class Numbers(CommandLine):
