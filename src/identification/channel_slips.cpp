@@ -19,9 +19,9 @@ namespace cosserat_cable {
 namespace {
 
 // What a record's own fit with an unknown start may take [s], and in parts of the whole fit.
-constexpr double kLeastTime = 3, kPartOfFit = 0.05;
+constexpr double kLeastTime = 3, kPartOfFit = 0.03;
 // What a fit of what is mended may take, likewise.
-constexpr double kLeastTimeOfMended = 24, kPartOfFitOfMended = 0.3;
+constexpr double kLeastTimeOfMended = 24, kPartOfFitOfMended = 0.1;
 // Stiffnesses that two records show are the same within this, relative.
 constexpr double kSameStiffness = 0.02;
 // Records whose slips are looked for, the worst first: each takes seconds.
