@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "chain_advance.h"
+#include "cosserat_cable/math/flush_subnormals.h"
 #include "lane_access.h"
 #include "rod_impl.h"
 
@@ -81,6 +82,7 @@ void ChainStepper<T>::Predict(int lane, double dt, std::vector<Eigen::Vector3d>*
 template <class T>
 void ChainStepper<T>::Step(double dt, int count, Rod::Impl* const* rods, const RodDrive* drives,
                            SolveReport* reports) {
+  const FlushSubnormals flush;
   const StepCoefficients c(dt);
   StepOfRod steps[kLanes];
   chain_.branched = chain_.nonlinear = false;
