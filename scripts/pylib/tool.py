@@ -49,6 +49,14 @@ def nearest(word, known):
     return '; there is ' + ', '.join(f"'{k}'" for k in known) if known else ''
 
 
+def require_programs(parser, folder, names):
+    """Ends with what is missing where a folder lacks programs that a long run would start."""
+    missing = [name for name in names if not os.access(os.path.join(folder, name), os.X_OK)]
+    if missing:
+        parser.error('--programs: there is no %s in %s; built by: cmake --build build --target %s' % (
+            ' nor '.join(missing), folder, ' '.join(missing)))
+
+
 def check_outputs(problems, reads, writes):
     """Tells every output that is an input or another output, or no regular file; one that cannot be
     made is an OSError before anything is done. `writes`: [(option, path or None)]; a name that leads

@@ -88,6 +88,13 @@ class Coverage(unittest.TestCase):
         self.assertEqual(code, 2)
         self.assertIn('expected NAME=VALUE', errors)
 
+    def test_programs_that_are_not_built_are_said_once(self):
+        os.remove(self.path('rig_generator'))
+        code, _, errors = self.coverage('--count', '5')
+        self.assertEqual(code, 2)
+        self.assertEqual(errors.count('no rig_generator in'), 1)
+        self.assertNotIn('cable_identify', errors.replace(self.folder.name, '').split('error:')[1])
+
 
 if __name__ == '__main__':
     unittest.main()
