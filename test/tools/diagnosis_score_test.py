@@ -122,6 +122,7 @@ class Score(unittest.TestCase):
         os.mkdir(self.programs)
         write_program(os.path.join(self.programs, 'cable_diagnose'), FAKE)
         write_program(os.path.join(self.programs, 'rig_generator'), FAKE_RIGS)
+        write_program(os.path.join(self.programs, 'cable_simulate'), '#!/usr/bin/false\n')
         self.tell('truths', {name: case[0] for name, case in CASES.items()})
         self.tell('answers', {name: case[1] for name, case in CASES.items()})
         self.list = os.path.join(folder.name, 'cases')
