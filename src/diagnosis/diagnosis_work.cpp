@@ -167,6 +167,8 @@ bool DiagnosisWork::FitBaseline(Problems* problems) {
       plain->point = std::move(point);
     }
   }
+  // As finely as any cause: what its steps are wrong by would be some cause's merit.
+  RefineOne(plain.get());
   scales_ = FindMotionScales(*plain->problem, plain->point);
   models_.push_back(std::move(plain));
   LookAtTheBest();
@@ -320,8 +322,7 @@ void DiagnosisWork::Finish(FittedTrial* model) {
 }
 
 void DiagnosisWork::RefineOne(FittedTrial* model) {
-  if (model->trials.empty() || model->point.cost > kMuchLeft * model->point.samples) return;
-  if (model->refined) return;
+  if (model->refined || model->point.cost > kMuchLeft * model->point.samples) return;
   model->refined = true;
   const SimulationCount before = model->problem->count();
   model->problem->SetMaxIterations(kMoreIterations);

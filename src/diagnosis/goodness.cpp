@@ -71,6 +71,9 @@ Difference DifferenceOf(const Records& worse, const Records& better,
       blocks.push_back(sum);
       difference.value += sum;
     }
+    const double gained = worse[e].squaredNorm() - better[e].squaredNorm();
+    const auto samples = static_cast<double>(std::max<Eigen::Index>(1, worse[e].size()));
+    difference.most_per_sample = std::max(difference.most_per_sample, gained / samples);
   }
   const auto n = static_cast<double>(blocks.size());
   double squares = 0;

@@ -29,6 +29,8 @@ Adequacy AdequacyOf(const FitPoint& point, const SetNoise& noise);
 struct Difference {
   double value = 0;
   double se = 0;  ///< of the sum of paired differences over blocks of the records
+  /// The largest of any record: what it gains on average per sample [noise variances].
+  double most_per_sample = 0;
 };
 /// @pre both are points of the same records
 Difference DifferenceOf(const Records& worse, const Records& better,

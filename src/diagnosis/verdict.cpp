@@ -35,6 +35,9 @@ std::string Times(const Contender& contender) {
 constexpr double kHardlyAny = 0.5;
 // Part of what a simpler model leaves that is too little to be worth more.
 constexpr double kOfLeft = 0.1;
+// Of the noise's variance: what a cause must gain per sample of some record, where the plain model
+// leaves as good as noise. No simulation is nearer to a real cable, nor to another simulation.
+constexpr double kMaterial = 0.1;
 // Part of the noise's sum of squares that a law may be wrong by in form.
 constexpr double kOfAdequate = 0.05;
 
@@ -69,9 +72,12 @@ class Court {
     const int more = std::max(1, Of(better).parameters - Of(worse).parameters);
     return kSignificant + kPerParameter * (more - 1);
   }
+  static bool IsMaterial(const Difference& fitted) { return fitted.most_per_sample > kMaterial; }
   bool Beats(int better, int worse) const {
-    if (!(difference_(worse, better).value > Needed(worse, better))) return false;
+    const Difference fitted = difference_(worse, better);
+    if (!(fitted.value > Needed(worse, better))) return false;
     if (worse != 0 || !Of(0).adequacy.adequate) return true;
+    if (!IsMaterial(fitted)) return false;
     // What is added to a plain model that leaves as good as noise must predict better, too.
     const Difference predicted = heldout_(worse, better);
     return predicted.value > kBeyondErrorHeldOut * predicted.se;
@@ -127,7 +133,13 @@ class Court {
       return;
     }
     if (!Beats(r, 0)) {
-      reason = "it improves the fit by no more than chance does";
+      const Difference gained = difference_(0, r);
+      const bool chance =
+          !(gained.value > Needed(0, r)) || IsMaterial(gained) || !plain.adequacy.adequate;
+      reason = chance ? "it improves the fit by no more than chance does"
+                      : "what it improves is " + FormatRounded(100 * gained.most_per_sample, 2) +
+                            " % of the noise's variance at most in any record: too little to tell "
+                            "from what a simulation is wrong by";
       return;
     }
     if (rival.faint) {

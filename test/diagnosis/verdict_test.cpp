@@ -28,6 +28,7 @@ Judgement JudgeWith(const std::vector<Contender>& contenders, double relative_er
     Difference d;
     d.value = contenders[worse].adequacy.chi2 - contenders[better].adequacy.chi2;
     d.se = relative_error * std::abs(d.value);
+    d.most_per_sample = d.value / kSamples;
     return d;
   };
   return Judge(contenders, difference, difference);
@@ -123,15 +124,29 @@ TEST(VerdictTest, TwoCausesAreNamedOnlyWhereEachIsNeeded) {
 }
 
 TEST(VerdictTest, WhatPredictsNoBetterIsNotBesideNoise) {
-  const std::vector<Contender> contenders = {Leaves({}, 1.05, 0), Leaves({"sensor"}, 0.97, 3)};
+  const std::vector<Contender> contenders = {Leaves({}, 1.09, 0), Leaves({"sensor"}, 0.97, 3)};
   EXPECT_EQ(JudgeWith(contenders).verdict, Verdict::kNamed);
   const DifferenceBetween fitted = [&](int worse, int better) {
-    return Difference{contenders[worse].adequacy.chi2 - contenders[better].adequacy.chi2, 1.0};
+    const double value = contenders[worse].adequacy.chi2 - contenders[better].adequacy.chi2;
+    return Difference{value, 1.0, value / kSamples};
   };
   const DifferenceBetween predicted = [&](int worse, int better) {
     return Difference{-fitted(worse, better).value, 1.0};
   };
   EXPECT_EQ(Judge(contenders, fitted, predicted).verdict, Verdict::kNone);
+}
+
+TEST(VerdictTest, WhatIsSmallBesideTheNoiseIsNotNamedHoweverSignificant) {
+  const std::vector<Contender> contenders = {Leaves({}, 1.04, 0), Leaves({"sensor"}, 0.97, 1)};
+  const Judgement everywhere = JudgeWith(contenders);
+  EXPECT_EQ(everywhere.verdict, Verdict::kNone);
+  EXPECT_NE(everywhere.rejected[1].find("7 % of the noise's variance"), std::string::npos)
+      << everywhere.rejected[1];
+  const DifferenceBetween in_one_record = [&](int worse, int better) {
+    const double value = contenders[worse].adequacy.chi2 - contenders[better].adequacy.chi2;
+    return Difference{value, 1.0, 20 * value / kSamples};
+  };
+  EXPECT_EQ(Judge(contenders, in_one_record, in_one_record).verdict, Verdict::kNamed);
 }
 
 TEST(VerdictTest, ContainingIsByCauseAndByPart) {

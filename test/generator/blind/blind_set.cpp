@@ -55,7 +55,7 @@ std::vector<MeasuredExperiment> sensed(const std::vector<Experiment>& experiment
 
 std::vector<Record> recordsOf(const std::vector<Experiment>& experiments) {
   std::vector<Record> records;
-  for (const Experiment& e : experiments) records.push_back(simulate(e, recordAccuracy()));
+  for (const Experiment& e : experiments) records.push_back(simulate(e, recordAccuracy(e)));
   return records;
 }
 

@@ -10,7 +10,7 @@ namespace cosserat_cable::generator {
 /// Coarse enough for a search, and still finer than noise.
 Accuracy searchAccuracy();
 /// For the records that are written.
-Accuracy recordAccuracy();
+Accuracy recordAccuracy(const Experiment& e);
 
 /// The experiments without what they have beyond the plain rod.
 std::vector<Experiment> plain(std::vector<Experiment> experiments);
