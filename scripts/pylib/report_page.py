@@ -1,7 +1,7 @@
 """A report as a list of items, written as one html file that needs no network, and as a PDF.
 
 An item is Heading, Text, Bullets, Table, Figure or Folded; both files have the same in the same
-order."""
+order. Figures are drawings in the html, and images on the PDF's pages."""
 
 import base64
 import collections
@@ -42,6 +42,9 @@ PAGE = (8.27, 11.69)  # A4 [in]
 MARGIN = 0.07         # of the page
 LINE = 0.0145         # height of a line, of the page
 CHARACTERS = 98       # in a line of a page
+CAPTION = 4 * LINE    # what a figure's caption takes, about
+TALLEST = 0.6         # figure, of the page
+DPI = 200             # of a figure
 CELL = 34             # most characters of a table's cell before it is wrapped, in the PDF
 
 
@@ -91,7 +94,7 @@ def write_html(path, title, items):
 
 
 class Pages:
-    """Text set line by line onto pages of a PDF; each figure on a page of its own."""
+    """Text and figures set one below the other onto pages of a PDF."""
 
     def __init__(self, pdf, plt):
         self.pdf, self.plt = pdf, plt
@@ -103,10 +106,14 @@ class Pages:
             self.plt.close(self.page)
         self.page = None
 
-    def line(self, text, **style):
-        if self.page is None or self.y < MARGIN:
+    def reserve(self, height):
+        """A new page where this one has less left, of its height."""
+        if self.page is None or self.y - height < MARGIN:
             self.flush()
             self.page, self.y = self.plt.figure(figsize=PAGE), 1 - MARGIN
+
+    def line(self, text, **style):
+        self.reserve(0)
         self.page.text(MARGIN, self.y, text, va='top', parse_math=False, **style)
         self.y -= LINE * style.get('fontsize', 9) / 9
 
@@ -132,19 +139,31 @@ class Pages:
                           family='monospace', weight='normal' if number else 'bold')
         self.y -= LINE
 
-    def figure(self, item, heading=''):
-        self.flush()
-        above = item.figure.text(0.01, 1.01, heading, va='bottom', fontsize=11, weight='bold',
-                                 parse_math=False)
-        caption = item.figure.text(0.01, -0.02, textwrap.fill(item.caption, CHARACTERS), va='top',
-                                   fontsize=9, color='0.35', parse_math=False)
-        self.pdf.savefig(item.figure, bbox_inches='tight', pad_inches=0.4)
-        caption.remove()
-        above.remove()
+    def figure(self, item):
+        image, height = self.picture(item.figure)
+        self.reserve(height + CAPTION)
+        # Margins are parts of the height for lines, and of the width for what stands in a line.
+        axes = self.page.add_axes((MARGIN, self.y - height, 1 - 2 * MARGIN, height), anchor='NW')
+        axes.imshow(image, interpolation='none')
+        axes.set_axis_off()
+        self.y -= height + LINE / 2
+        self.paragraph(item.caption, color='0.35')
 
-    def add(self, item):
+    def picture(self, figure):
+        """A figure as an image, and its height on a page as wide as the text."""
+        file = io.BytesIO()
+        figure.savefig(file, format='png', dpi=DPI, bbox_inches='tight')
+        file.seek(0)
+        image = self.plt.imread(file)
+        height = (1 - 2 * MARGIN) * PAGE[0] / PAGE[1] * image.shape[0] / image.shape[1]
+        return image, min(height, TALLEST)
+
+    def add(self, item, after=None):
+        """`after`: what a heading is above, and is not to be parted from."""
         if isinstance(item, Heading):
             self.y -= LINE
+            beside = self.picture(after.figure)[1] + CAPTION if isinstance(after, Figure) else 0
+            self.reserve(3 * LINE + max(beside, 4 * LINE))
             self.paragraph(item.text, fontsize=18 - 3 * item.level, weight='bold')
         elif isinstance(item, Text):
             self.paragraph(item.text, fontsize=13 if item.kind == 'headline' else 9)
@@ -167,11 +186,7 @@ def write_pdf(path, title, items):
     with tool.whole_file(path) as temporary, PdfPages(
             temporary, metadata={'Title': title, 'CreationDate': None}) as pdf:
         pages = Pages(pdf, plt)
-        for before, item, after in zip([None] + items, items, items[1:] + [None]):
-            if isinstance(item, Heading) and isinstance(after, Figure):
-                continue  # on the figure's page
-            if isinstance(item, Figure) and isinstance(before, Heading):
-                pages.figure(item, before.text)
-            else:
-                pages.add(item)
+        for number, item in enumerate(items):
+            pages.add(item, next((each for each in items[number + 1:]
+                                  if not isinstance(each, Heading)), None))
         pages.flush()
