@@ -19,12 +19,24 @@ constexpr double kBeyondError = 3, kBeyondErrorHeldOut = 2;
 constexpr double kExplained = 0.97, kMostLeft = 6;
 // And somewhat less of it, where no more than half of the noise's variance is left beyond it.
 constexpr double kExplainedOfFaint = 0.95, kNearNoise = 1.5;
+// Of what a part of it leaves, what several causes together explain where they do not leave noise:
+// what no law describes is easily shared out among two.
+constexpr double kExplainedBeyondPart = 0.9;
 // What a rival leaves beyond the noise, by what the best leaves, where neither leaves just noise.
 constexpr double kFarWorse = 2.5;
 
-double ShareOf(const Contender& contender, const Contender& plain) {
-  const double misfit = plain.adequacy.excess();
-  return misfit > 0 ? (plain.adequacy.chi2 - contender.adequacy.chi2) / misfit : 0.0;
+/// Part of what a simpler model leaves beyond the noise that a contender explains.
+double ShareOf(const Contender& contender, const Contender& simpler) {
+  const double misfit = simpler.adequacy.excess();
+  return misfit > 0 ? (simpler.adequacy.chi2 - contender.adequacy.chi2) / misfit : 0.0;
+}
+
+/// Whether these are some of the causes of a contender that has more.
+bool IsPartOf(const Contender& part, const Contender& whole) {
+  return !part.causes.empty() && part.causes.size() < whole.causes.size() &&
+         std::all_of(part.causes.begin(), part.causes.end(), [&](const std::string& name) {
+           return std::count(whole.causes.begin(), whole.causes.end(), name) > 0;
+         });
 }
 
 std::string Times(const Contender& contender) {
@@ -55,7 +67,7 @@ class Court {
     if (judgement_.best == 0) {
       judgement_.verdict = best.adequacy.adequate ? Verdict::kNone : Verdict::kUnexplained;
     } else {
-      judgement_.verdict = Explains(best, Of(0)) ? Verdict::kNamed : Verdict::kUnexplained;
+      judgement_.verdict = Explains(judgement_.best) ? Verdict::kNamed : Verdict::kUnexplained;
     }
     for (int r = 0; r < Count(); ++r)
       if (r != judgement_.best) Try(r);
@@ -71,6 +83,17 @@ class Court {
   double Needed(int worse, int better) const {
     const int more = std::max(1, Of(better).parameters - Of(worse).parameters);
     return kSignificant + kPerParameter * (more - 1);
+  }
+  /// Whether a contender leaves just noise, or is right in kind.
+  bool Explains(int i) const {
+    const Contender& one = Of(i);
+    if (one.adequacy.adequate) return true;
+    const double share = ShareOf(one, Of(0)), left = one.adequacy.times();
+    const bool in_kind = (share > kExplained && left < kMostLeft) ||
+                         (share > kExplainedOfFaint && left < kNearNoise);
+    return in_kind && std::none_of(contenders_.begin(), contenders_.end(), [&](const auto& part) {
+             return IsPartOf(part, one) && ShareOf(one, part) < kExplainedBeyondPart;
+           });
   }
   static bool IsMaterial(const Difference& fitted) { return fitted.most_per_sample > kMaterial; }
   bool Beats(int better, int worse) const {
@@ -109,9 +132,9 @@ class Court {
     for (bool simpler = true; simpler;) {
       simpler = false;
       for (int p = 0; p < Count() && !simpler; ++p) {
-        if (p == best || Of(p).faint || !Contains(Of(best).causes, Of(p).causes) ||
-            IsWorthIt(best, p))
-          continue;
+        if (p == best || Of(p).faint || !Contains(Of(best).causes, Of(p).causes)) continue;
+        const bool explains_instead = IsPartOf(Of(p), Of(best)) && Explains(p) && !Explains(best);
+        if (IsWorthIt(best, p) && !explains_instead) continue;
         best = p;
         simpler = true;
       }
@@ -147,10 +170,10 @@ class Court {
       return;
     }
     if (b != 0 && Contains(rival.causes, best.causes)) {
-      reason = "it contains the simpler answer and improves it by no more than chance does";
+      reason = "it contains the simpler answer, and what it adds is too little";
       return;
     }
-    if (!Explains(rival, plain)) {
+    if (!Explains(r)) {
       reason = "it explains " + FormatRounded(100 * std::max(0.0, ShareOf(rival, plain)), 3) +
                " % of the misfit, and leaves " + Times(rival);
       return;
@@ -191,13 +214,6 @@ bool Contains(const std::vector<std::string>& larger, const std::vector<std::str
     left.erase(place);
   }
   return true;
-}
-
-bool Explains(const Contender& contender, const Contender& plain) {
-  if (contender.adequacy.adequate) return true;
-  const double share = ShareOf(contender, plain), left = contender.adequacy.times();
-  return (share > kExplained && left < kMostLeft) ||
-         (share > kExplainedOfFaint && left < kNearNoise);
 }
 
 Judgement Judge(const std::vector<Contender>& contenders, const DifferenceBetween& difference,

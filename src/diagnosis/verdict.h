@@ -31,10 +31,6 @@ using DifferenceBetween = std::function<Difference(int worse, int better)>;
 /// Whether a contender turns into another one where some of its numbers vanish.
 bool Contains(const std::vector<std::string>& larger, const std::vector<std::string>& smaller);
 
-/// Whether it explains the records, in kind at least: what is left is noise, or little beside what
-/// the plain model leaves.
-bool Explains(const Contender& contender, const Contender& plain);
-
 /// The first contender is the plain model. `heldout`: the difference of what they predict of
 /// records that were left out.
 Judgement Judge(const std::vector<Contender>& contenders, const DifferenceBetween& difference,

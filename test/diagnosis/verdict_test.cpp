@@ -123,6 +123,19 @@ TEST(VerdictTest, TwoCausesAreNamedOnlyWhereEachIsNeeded) {
   EXPECT_EQ(JudgeWith(spare).best, 1);
 }
 
+TEST(VerdictTest, TwoCausesThatLeaveMuchOfWhatOneLeavesExplainNothing) {
+  const auto with_both_leaving = [](double one, double both) {
+    return JudgeWith({Leaves({}, 17, 0), Leaves({"air_drag"}, one), Leaves({"drift"}, 15),
+                      Leaves({"air_drag", "drift"}, both, 2)});
+  };
+  EXPECT_EQ(with_both_leaving(1.8, 1.3).verdict, Verdict::kUnexplained);
+  EXPECT_EQ(with_both_leaving(4, 1.25).verdict, Verdict::kNamed);
+  EXPECT_EQ(with_both_leaving(4, 1.25).best, 3);
+  // One that is right in kind stands, whatever a second one takes of what it leaves.
+  EXPECT_EQ(with_both_leaving(1.4, 1.2).verdict, Verdict::kNamed);
+  EXPECT_EQ(with_both_leaving(1.4, 1.2).best, 1);
+}
+
 TEST(VerdictTest, WhatPredictsNoBetterIsNotBesideNoise) {
   const std::vector<Contender> contenders = {Leaves({}, 1.09, 0), Leaves({"sensor"}, 0.97, 3)};
   EXPECT_EQ(JudgeWith(contenders).verdict, Verdict::kNamed);
