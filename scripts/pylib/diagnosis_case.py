@@ -8,7 +8,8 @@ import shutil
 import subprocess
 import time
 
-from nested_paths import nested
+import yaml
+
 from report_numbers import NORMAL_95
 
 PLAIN = ('EI', 'GJ', 'eta_EI', 'eta_GJ')
@@ -92,11 +93,14 @@ def unseen_gain(programs, folder, verdict, limit):
     extended = verdict.get('extended') or {}
     if verdict['verdict'] != 'named' or not extended.get('cable'):
         return None
-    faults = {path: value[0] for path, value in extended.get('parameters', {}).items()
-              if path.startswith('faults.') and value is not None}
+    # From the set that was written with them: it has the numbers that no record tells, too.
+    faults = {}
+    if extended.get('measurement'):
+        with open(os.path.join(folder, 'verdict', extended['measurement'])) as file:
+            faults = yaml.safe_load(file).get('faults', {})
     cable = os.path.join(folder, 'verdict', extended['cable'])
     plain, channels = unseen_errors(simulate, folder, limit, values=verdict['baseline']['parameters'])
-    better, _ = unseen_errors(simulate, folder, limit, cable=cable, faults=nested('faults', faults))
+    better, _ = unseen_errors(simulate, folder, limit, cable=cable, faults=faults)
     if plain < 1.1 * channels:
         return None
     return (plain - better) / (plain - channels)
