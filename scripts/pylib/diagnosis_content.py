@@ -8,6 +8,7 @@ import numpy as np
 import diagnosis_figures as figures
 import diagnosis_set
 import record_signals as signals
+import report_cost
 from report_numbers import NORMAL_95, number, percent, unit_of
 from report_page import Bullets, Figure, Folded, Heading, Table, Text
 
@@ -313,18 +314,9 @@ def parameter_items(data):
                 f" To simulate with: {joined(files)}." if files else ''), '')]
 
 
-def cost_items(data):
-    stages = data.get('stages') or []
-    rows = [[s.get('stage', ''), f"{s.get('seconds') or 0:.3g}", f"{s.get('simulations') or 0:,}",
-             f"{s.get('steps') or 0:,}"] for s in stages]
-    items = [Heading('Cost', 2)]
-    if rows:
-        items.append(Table(['stage', 'time [s]', 'simulations', 'time steps'], rows, ''))
-    if data.get('seconds') is not None:
-        items.append(Text(f"Diagnosed in {data['seconds']:.3g} s.", ''))
-    if data.get('warnings'):
-        items += [Heading('Warnings', 2), Bullets(data['warnings'], 'warning')]
-    return items
+def warning_items(data):
+    warnings = data.get('warnings')
+    return [Heading('Warnings', 2), Bullets(warnings, 'warning')] if warnings else []
 
 
 def late_items(data):
@@ -359,4 +351,5 @@ def content(data, columns):
     items += late_items(data)
     return (items + facts(data, records) + [next_step(data)] + proof_items(records)
             + [Heading('What the plain model gets wrong, recalibrated', 2), *wrong_items(records)]
-            + candidate_items(data) + parameter_items(data) + cost_items(data))
+            + candidate_items(data) + parameter_items(data) + report_cost.items(data, 'Diagnosed')
+            + warning_items(data))

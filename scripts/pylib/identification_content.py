@@ -1,6 +1,7 @@
 """What a report of cable_identify says, item by item, from identification.json and the records."""
 
 import identification_figures as figures
+import report_cost
 from report_numbers import NORMAL_95, number, percent, unit_of
 from report_page import Bullets, Figure, Heading, Table, Text
 
@@ -308,6 +309,4 @@ def content(data, records):
     items += direct_items(data, intervals) + plan_items(data)
     if data.get('messages'):
         items += [Heading('Messages', 2), Bullets(data['messages'], '')]
-    if data.get('seconds') is not None:
-        items.append(Text(f"Estimated in {data['seconds']:.3g} s.", ''))
-    return items
+    return items + report_cost.items(data, 'Identified')

@@ -6,6 +6,7 @@ import math
 import numpy as np
 
 import page_figures
+from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullLocator
 from report_numbers import NORMAL_95
 
 # The loss at the disc: D_E in the source paper's formulas.
@@ -14,10 +15,14 @@ END_DAMPING = 'extensions.clamp_damping.b.torsion'
 plt = page_figures.pyplot('identification')
 
 WIDTH = 10.5
+# [in] About and between the axes of an experiment: room for the longest numbers and two lines of
+# label. matplotlib's own layout takes as long as all of the drawing.
+LEFT, RIGHT, TOP, BOTTOM, ACROSS, DOWN = 0.95, 0.1, 0.2, 0.45, 0.8, 0.42
 MEASURED, FIT, OTHER, DIRECT = '0.55', page_figures.COLOURS[0], page_figures.COLOURS[1], \
     page_figures.COLOURS[2]
 DEVIANCE_95 = 3.841459  # of a profile likelihood, one parameter
 MANY = 300              # samples beyond which a line is drawn, not dots
+MANY_DECADES = 300      # highest over lowest, from which on powers of ten are ticks enough
 LONG = 28               # characters of a label
 
 
@@ -25,6 +30,15 @@ def _finish(figure):
     figure.tight_layout()
     plt.close(figure)  # kept by who asked for it, not by pyplot
     return figure
+
+
+def _space(figure, rows, across):
+    """Fixed margins of a grid of axes."""
+    width, height = figure.get_size_inches()
+    figure.subplots_adjust(left=LEFT / width, right=1 - RIGHT / width, bottom=BOTTOM / height,
+                           top=1 - TOP / height,
+                           wspace=across * ACROSS / (width - LEFT - RIGHT - (across - 1) * ACROSS),
+                           hspace=rows * DOWN / (height - BOTTOM - TOP - (rows - 1) * DOWN))
 
 
 def _shorten(text, length=LONG):
@@ -62,21 +76,32 @@ def _draw_residual(axes, x, residual, channel, quasi_static):
     axes.set_ylabel(f"residual [{channel.get('unit', '')}]")
 
 
+def _set_sizes(axes, low, high):
+    """Of a logarithmic axis, with ticks where a number stands: the many without one take as long as
+    all else of a figure."""
+    axes.set_ylim(low, high)
+    subs = (1,) if high > MANY_DECADES * low else (1, 2, 5)
+    axes.yaxis.set_major_locator(LogLocator(subs=subs))
+    axes.yaxis.set_major_formatter(LogFormatterSciNotation(minor_thresholds=(math.inf, math.inf)))
+    axes.yaxis.set_minor_locator(NullLocator())
+
+
 def _draw_decay(axes, x, measured, fit, ring, sigma):
     omega, delta = ring['omega'][0], ring['delta'][0]
+    axes.set_yscale('log')  # once: each time makes its ticks anew
     for values, colour, marker, label in ((measured, MEASURED, 'o', 'measured'),
                                           (fit, FIT, '', 'fit')):
         times, sizes = envelope(x, values, omega)
-        axes.semilogy(times, np.maximum(sizes, 1e-300), color=colour, marker=marker, markersize=3,
-                      linewidth=0 if marker else 1, label=label)
+        axes.plot(times, np.maximum(sizes, 1e-300), color=colour, marker=marker, markersize=3,
+                  linewidth=0 if marker else 1, label=label)
         if values is measured and len(sizes):
             # Through the median of the larger half: a straight line of the direct decay rate.
             large = sizes >= np.median(sizes)
             start = np.exp(np.median(np.log(sizes[large]) + delta * (times[large] - x[0])))
             lowest, highest = sizes[sizes > 0].min(), sizes.max()
-            axes.semilogy(x, start * np.exp(-delta * (x - x[0])), '--', color=OTHER, linewidth=0.9,
-                          label=f'direct, {delta:.3g} 1/s')
-            axes.set_ylim(0.4 * min(lowest, sigma or lowest), 2.5 * highest)
+            axes.plot(x, start * np.exp(-delta * (x - x[0])), '--', color=OTHER, linewidth=0.9,
+                      label=f'direct, {delta:.3g} 1/s')
+            _set_sizes(axes, 0.4 * min(lowest, sigma or lowest), 2.5 * highest)
     if sigma:
         axes.axhline(NORMAL_95 * sigma, color='0.2', linestyle=':', linewidth=0.8,
                      label='noise, 95 %')
@@ -94,8 +119,10 @@ def experiment(entry, columns, rings):
     quasi_static = 'step' in columns
     x = columns['step' if quasi_static else 't']
     decays = not quasi_static and any(c['column'] in rings for c in channels)
-    figure, grid = plt.subplots(len(channels), 3 if decays else 2, squeeze=False,
+    across = 3 if decays else 2
+    figure, grid = plt.subplots(len(channels), across, squeeze=False,
                                 figsize=(WIDTH, 0.5 + 2.1 * len(channels)))
+    _space(figure, len(channels), across)
     for row, channel in zip(grid, channels):
         measured, fit = columns[channel['column']], columns[channel['column'] + '.fit']
         _draw_record(row[0], x, measured, fit, channel, quasi_static)
@@ -106,7 +133,8 @@ def experiment(entry, columns, rings):
             row[2].set_axis_off()
     for axes in grid[-1]:
         axes.set_xlabel('step' if quasi_static else 't [s]')
-    return _finish(figure)
+    plt.close(figure)
+    return figure
 
 
 def _band(x, eta, d_e, correlation):

@@ -123,6 +123,13 @@ bool IsTooLarge(const Experiment& experiment, const Eigen::MatrixXd& correction,
 
 }  // namespace
 
+RecordModel::SharedCount& RecordModel::OfAll() {
+  static SharedCount count;
+  return count;
+}
+
+SimulationCount RecordModel::CountOfAll() { return OfAll(); }
+
 RecordModel::RecordModel(const Unknowns& unknowns)
     : unknowns_(unknowns), count_(std::make_unique<SharedCount>()) {
   for (const Experiment& experiment : unknowns.set().experiments) {
@@ -256,14 +263,14 @@ std::vector<SimulatedRecord> RecordModel::SimulateCounted(const Experiment& expe
                                                           const std::vector<Specimen>& specimens,
                                                           const SimulationOptions& options) const {
   const auto rods = static_cast<long>(specimens.size());
-  count_->simulations += rods;
+  SimulationCount count{rods, 0, 0};
   const double until = std::min(options.until, experiment.record.t.back());
   if (!experiment.quasi_static()) {
-    const long steps =
-        rods * std::lround(std::max(0.0, until - experiment.start_time()) / options.dt);
-    count_->steps += steps;
-    count_->element_steps += steps * options.elements;
+    count.steps = rods * std::lround(std::max(0.0, until - experiment.start_time()) / options.dt);
+    count.element_steps = count.steps * options.elements;
   }
+  count_->Add(count);
+  OfAll().Add(count);
   return SimulateExperiment(experiment, specimens, options);
 }
 

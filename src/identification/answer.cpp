@@ -139,10 +139,7 @@ json SlipJson(const ChannelSlip& slip) {
 }  // namespace
 
 json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
-  json answer = {{"format", 1},
-                 {"set", set.folder},
-                 {"seconds", estimation.seconds},
-                 {"converged", estimation.converged}};
+  json answer = {{"format", 1}, {"set", set.folder}, {"converged", estimation.converged}};
   answer["parameters"] = json::object();
   answer["undetermined"] = json::object();
   answer["untrusted"] = json::object();
@@ -220,15 +217,20 @@ json AnswerJson(const MeasurementSet& set, const Estimation& estimation) {
   answer["slips"] = json::array();
   for (const ChannelSlip& slip : estimation.slips) answer["slips"].push_back(SlipJson(slip));
   answer["discretisation"] = estimation.discretisation;
-  answer["stages"] = json::array();
-  for (const StageCost& stage : estimation.stages)
-    answer["stages"].push_back({{"stage", stage.name},
-                                {"seconds", stage.seconds},
-                                {"simulations", stage.count.simulations},
-                                {"steps", stage.count.steps},
-                                {"element_steps", stage.count.element_steps}});
+  TellTimes(estimation.seconds, estimation.stages, &answer);
   answer["warnings"] = estimation.warnings;
   return answer;
+}
+
+void TellTimes(double seconds, const std::vector<StageCost>& stages, json* answer) {
+  (*answer)["seconds"] = seconds;
+  json& list = (*answer)["stages"] = json::array();
+  for (const StageCost& stage : stages)
+    list.push_back({{"stage", stage.name},
+                    {"seconds", stage.seconds},
+                    {"simulations", stage.count.simulations},
+                    {"steps", stage.count.steps},
+                    {"element_steps", stage.count.element_steps}});
 }
 
 std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit) {

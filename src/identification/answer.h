@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "cosserat_cable/identification/estimation.h"
 
@@ -10,6 +11,9 @@ namespace cosserat_cable {
 
 /// identification.json.
 nlohmann::json AnswerJson(const MeasurementSet& set, const Estimation& estimation);
+
+/// What was done in how long, in the answer.
+void TellTimes(double seconds, const std::vector<StageCost>& stages, nlohmann::json* answer);
 
 /// fit/NAME.csv: the record's columns, and beside each the simulated one (COLUMN.fit).
 std::string FitCsv(const Experiment& experiment, const ExperimentFit& fit);

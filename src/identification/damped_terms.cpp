@@ -3,10 +3,13 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
+
+#include "column_span.h"
 
 namespace cosserat_cable {
 namespace {
@@ -132,40 +135,38 @@ int Count(const std::vector<DampedTerm>& terms) {
   return count;
 }
 
-// Residual and Jacobian (Kaufman's) with the amplitudes eliminated.
+// The terms with the amplitudes that fit best.
 struct Projection {
+  std::vector<DampedTerm> terms;
+  std::vector<Wave> waves;
+  std::optional<ColumnSpan> span;  // of the waves, made white
   Eigen::VectorXd amplitudes, white_residual;
-  Eigen::MatrixXd jacobian;  // by the nonlinear parameters; only where asked for
   bool finite = false;
 };
 
 Projection Project(const Eigen::VectorXd& t, const Eigen::VectorXd& white_y,
-                   const std::vector<DampedTerm>& terms, const NoiseCorrelation& noise,
-                   bool with_jacobian) {
+                   const std::vector<DampedTerm>& terms, const NoiseCorrelation& noise) {
   Projection p;
-  const std::vector<Wave> waves = MakeWaves(t, terms);
-  Eigen::MatrixXd columns = WaveColumns(t.size(), waves);
+  p.terms = terms;
+  p.waves = MakeWaves(t, terms);
+  Eigen::MatrixXd columns = WaveColumns(t.size(), p.waves);
   if (!columns.allFinite()) return p;
   noise.Whiten(columns);
-  const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-  const Eigen::Index rank = columns.cols();
-  p.amplitudes = qr.solve(white_y);
-  const auto out_of_span = [&](Eigen::Ref<Eigen::MatrixXd> m) {
-    Eigen::MatrixXd rotated = qr.householderQ().adjoint() * m;
-    rotated.topRows(rank).setZero();
-    m = qr.householderQ() * rotated;
-  };
+  p.span.emplace(std::move(columns));
+  p.amplitudes = p.span->Solve(white_y);
   p.white_residual = white_y;
-  out_of_span(p.white_residual);
-  if (!p.amplitudes.allFinite()) return p;
-  if (with_jacobian) {
-    p.jacobian = -WaveSlopes(t, terms, waves, p.amplitudes, Count(terms));
-    noise.Whiten(p.jacobian);
-    out_of_span(p.jacobian);
-    if (!p.jacobian.allFinite()) return p;
-  }
-  p.finite = true;
+  p.span->Leave(p.white_residual);
+  p.finite = p.amplitudes.allFinite();
   return p;
+}
+
+// Of the residual by the nonlinear parameters, with the amplitudes eliminated (Kaufman's).
+Eigen::MatrixXd JacobianOf(const Projection& p, const Eigen::VectorXd& t,
+                           const NoiseCorrelation& noise) {
+  Eigen::MatrixXd jacobian = -WaveSlopes(t, p.terms, p.waves, p.amplitudes, Count(p.terms));
+  noise.Whiten(jacobian);
+  p.span->Leave(jacobian);
+  return jacobian;
 }
 
 class TermsCost : public ceres::CostFunction {
@@ -180,26 +181,36 @@ class TermsCost : public ceres::CostFunction {
 
   bool Evaluate(double const* const* x, double* residuals, double** jacobians) const override {
     const double duration = t_[t_.size() - 1];
-    std::vector<DampedTerm> terms = terms_;
-    Unpack(x[0], duration, &terms);
-    const bool wanted = jacobians != nullptr && jacobians[0] != nullptr;
-    const Projection p = Project(t_, white_y_, terms, noise_, wanted);
-    if (!p.finite) return false;
-    Eigen::Map<Eigen::VectorXd>(residuals, t_.size()) = scale_ * p.white_residual;
-    if (wanted) {
-      // Ceres wants it row by row.
-      Eigen::Map<Eigen::MatrixXd>(jacobians[0], p.jacobian.cols(), t_.size()) =
-          (scale_ / duration * p.jacobian).transpose();
-    }
+    MoveTo(x[0], duration);
+    if (!last_.finite) return false;
+    Eigen::Map<Eigen::VectorXd>(residuals, t_.size()) = scale_ * last_.white_residual;
+    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
+    const Eigen::MatrixXd jacobian = JacobianOf(last_, t_, noise_);
+    if (!jacobian.allFinite()) return false;
+    // Ceres wants it row by row.
+    Eigen::Map<Eigen::MatrixXd>(jacobians[0], jacobian.cols(), t_.size()) =
+        (scale_ / duration * jacobian).transpose();
     return true;
   }
 
  private:
+  // Ceres asks for the residual at a point first, and for the Jacobian where it takes the step.
+  void MoveTo(const double* x, double duration) const {
+    const std::vector<double> at(x, x + parameter_block_sizes()[0]);
+    if (at == at_) return;
+    at_ = at;
+    std::vector<DampedTerm> terms = terms_;
+    Unpack(x, duration, &terms);
+    last_ = Project(t_, white_y_, terms, noise_);
+  }
+
   const Eigen::VectorXd& t_;
   const Eigen::VectorXd& white_y_;
   const std::vector<DampedTerm>& terms_;
   const NoiseCorrelation& noise_;
   double scale_ = 1;
+  mutable std::vector<double> at_;
+  mutable Projection last_;
 };
 
 void SetBounds(const std::vector<DampedTerm>& terms, double samples, double* x,
@@ -227,18 +238,17 @@ void SetBounds(const std::vector<DampedTerm>& terms, double samples, double* x,
 
 void NoiseCorrelation::Whiten(Eigen::Ref<Eigen::MatrixXd> columns) const {
   if (white()) return;
-  for (Eigen::Index i = columns.rows() - 1; i > 0; --i) {
-    const double c = correlation[i];
-    columns.row(i) = (columns.row(i) - c * columns.row(i - 1)) / std::sqrt(1 - c * c);
+  const Eigen::Index n = columns.rows() - 1;
+  const Eigen::ArrayXd c = correlation.tail(n);
+  const Eigen::ArrayXd scale = (1 - c.square()).rsqrt();
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    const Eigen::ArrayXd before = columns.col(k).head(n);
+    columns.col(k).tail(n).array() = scale * (columns.col(k).tail(n).array() - c * before);
   }
 }
 
 double NoiseCorrelation::LogDeterminant() const {
-  double sum = 0;
-  for (Eigen::Index i = 1; i < correlation.size(); ++i) {
-    sum += std::log1p(-correlation[i] * correlation[i]);
-  }
-  return sum;
+  return white() ? 0 : (1 - correlation.tail(correlation.size() - 1).array().square()).log().sum();
 }
 
 Eigen::MatrixXd TermColumns(const Eigen::VectorXd& t, const std::vector<DampedTerm>& terms) {
@@ -268,7 +278,10 @@ TermsFit FitTerms(const Eigen::VectorXd& t, const Eigen::VectorXd& y,
     problem.AddResidualBlock(new TermsCost(t, white_y, start, noise), nullptr, x.data());
     SetBounds(start, static_cast<double>(t.size()), x.data(), &problem);
     ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
+    // Of a tall Jacobian, as its columns are in ColumnSpan.
+    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    // Steps end at the bounds as they are: a line search along each would double the evaluations.
+    options.max_num_line_search_step_size_iterations = 0;
     options.max_num_iterations = kMostIterations;
     options.function_tolerance = 1e-10;
     options.parameter_tolerance = 1e-9;
@@ -278,16 +291,18 @@ TermsFit FitTerms(const Eigen::VectorXd& t, const Eigen::VectorXd& y,
     usable = summary.IsSolutionUsable();
     Unpack(x.data(), duration, &fit.terms);
   }
-  const Projection p = Project(t, white_y, fit.terms, noise, true);
+  const Projection p = Project(t, white_y, fit.terms, noise);
   if (!usable || !p.finite) return fit;
   fit.amplitudes = p.amplitudes;
   fit.white_residual = p.white_residual;
   fit.sum_of_squares = p.white_residual.squaredNorm();
-  fit.residual = y - TermColumns(t, fit.terms) * p.amplitudes;
+  fit.residual = y - WaveColumns(t.size(), p.waves) * p.amplitudes;
   fit.converged = true;
   if (!start.empty()) {
     // Scaled to a unit diagonal: frequencies and decay rates may differ by orders.
-    const Eigen::MatrixXd hessian = p.jacobian.transpose() * p.jacobian;
+    const Eigen::MatrixXd jacobian = JacobianOf(p, t, noise);
+    if (!jacobian.allFinite()) return TermsFit();
+    const Eigen::MatrixXd hessian = jacobian.transpose() * jacobian;
     const Eigen::VectorXd scale = hessian.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::LDLT<Eigen::MatrixXd> ldlt(scale.asDiagonal() * hessian * scale.asDiagonal());
     fit.converged = scale.allFinite() && ldlt.isPositive() && ldlt.rcond() > 1e-13;

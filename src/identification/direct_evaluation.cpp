@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <optional>
+#include <vector>
 
 #include "cosserat_cable/cable/parameters.h"
 #include "cosserat_cable/identification/ring_down.h"
@@ -102,9 +105,19 @@ struct Seen {
   std::optional<double> tip_amplitude;
 };
 
-void See(const Experiment& e, Eigen::Index column, double length, Seen* seen) {
-  const Channel& channel = e.channels[static_cast<std::size_t>(column)];
-  const RingDownFit fit = FitRingDown(e.record.t, e.record.values.col(column), channel.sigma);
+// Of each channel that shows the motion, side by side; nothing of the others.
+std::vector<std::optional<RingDownFit>> FitChannels(
+    const Experiment& e, const std::function<bool(const Channel&)>& shows) {
+  std::vector<std::optional<RingDownFit>> fits(e.channels.size());
+  tbb::parallel_for(std::size_t{0}, fits.size(), [&](std::size_t k) {
+    if (!shows(e.channels[k])) return;
+    const auto column = e.record.values.col(static_cast<Eigen::Index>(k));
+    fits[k] = FitRingDown(e.record.t, column, e.channels[k].sigma);
+  });
+  return fits;
+}
+
+void See(const Channel& channel, const RingDownFit& fit, double length, Seen* seen) {
   if (!fit.refused.empty()) {
     seen->ring.messages.push_back(channel.column + ": " + fit.refused);
     return;
@@ -163,11 +176,10 @@ void Convert(double factor, DirectRingDown* ring) {
 void EvaluateBending(const MeasurementSet& set, const Experiment& e, DirectEvaluation* out) {
   const Specimen specimen(set, e);
   std::map<std::string, Seen> planes;
-  for (std::size_t k = 0; k < e.channels.size(); ++k) {
-    const std::string plane = PlaneOf(e, e.channels[k]);
-    if (plane.empty() || !specimen.length) continue;
-    See(e, static_cast<Eigen::Index>(k), *specimen.length, &planes[plane]);
-  }
+  const auto fits = FitChannels(
+      e, [&](const Channel& channel) { return specimen.length && !PlaneOf(e, channel).empty(); });
+  for (std::size_t k = 0; k < fits.size(); ++k)
+    if (fits[k]) See(e.channels[k], *fits[k], *specimen.length, &planes[PlaneOf(e, e.channels[k])]);
   if (planes.empty()) planes[""].ring.messages.push_back("no channel looks across the cable");
   for (auto& [plane, seen] : planes) {
     DirectRingDown& ring = seen.ring;
@@ -194,9 +206,9 @@ void EvaluateTorsion(const MeasurementSet& set, const Experiment& e, DirectEvalu
   if (!specimen.length) {
     seen.ring.refused = "length is not known";
   } else {
-    for (std::size_t k = 0; k < e.channels.size(); ++k) {
-      if (IsOfTwist(e.channels[k])) See(e, static_cast<Eigen::Index>(k), *specimen.length, &seen);
-    }
+    const auto fits = FitChannels(e, IsOfTwist);
+    for (std::size_t k = 0; k < fits.size(); ++k)
+      if (fits[k]) See(e.channels[k], *fits[k], *specimen.length, &seen);
     if (Combine(&seen)) {
       Convert(*specimen.length * e.b.disc.inertia, &seen.ring);
       AddTorsionBiases(specimen, e, &seen.ring);

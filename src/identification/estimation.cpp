@@ -1,7 +1,6 @@
 #include "cosserat_cable/identification/estimation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "estimation_remarks.h"
 #include "estimation_work.h"
 #include "record_scatter.h"
+#include "stage_clock.h"
 
 namespace cosserat_cable {
 namespace {
@@ -37,10 +37,9 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
       farthest = std::max(farthest, part);
       return given.progress(what, farthest);
     };
-  const auto begin = std::chrono::steady_clock::now();
+  StageClock clock;
   const auto seconds_left = [&] {
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-    return options.time_budget > 0 ? options.time_budget - taken.count()
+    return options.time_budget > 0 ? options.time_budget - clock.seconds()
                                    : std::numeric_limits<double>::infinity();
   };
   UnknownOptions unknown_options = options.unknowns;
@@ -56,15 +55,16 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
     none.message = problems->empty() ? "the set names nothing to be identified" : "";
     return none;
   }
-  auto work = std::make_unique<EstimationWork>(*unknowns, options);
+  auto work = std::make_unique<EstimationWork>(*unknowns, options, &clock);
   if (!work->FitFromStart()) return work->Answer();
   for (int round = 0;
        round < kScatterRounds && options.scatter && !work->hurried() && !work->misfit(); ++round) {
     const std::vector<ParameterScatter> found = work->Scatter();
+    clock.Charge("scatter between records");
     if (Settled(unknown_options.scatter, found)) break;
     unknown_options.scatter = found;
     auto more = std::make_unique<Unknowns>(set, unknown_options, problems);
-    auto next = std::make_unique<EstimationWork>(*more, options);
+    auto next = std::make_unique<EstimationWork>(*more, options, &clock);
     if (!next->FitFrom(*work)) return next->Answer();
     work = std::move(next);
     unknowns = std::move(more);
@@ -77,7 +77,10 @@ Estimation Estimate(const MeasurementSet& set, const EstimationOptions& given, P
     NameSlips(*unknowns, &estimation);
     if (!estimation.slips.empty())
       DoubtSlips(mended, *unknowns, options, seconds_left(), &estimation);
+    clock.Charge("slips");
   }
+  estimation.stages = clock.stages();
+  estimation.seconds = clock.seconds();
   return estimation;
 }
 

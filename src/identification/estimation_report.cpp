@@ -107,7 +107,7 @@ void EstimationWork::ReportOtherMinimum() {
   const FitResult other =
       Fit(model_, rival_.values, model_.WholeHorizon(), noise_, options,
           [&](const std::string& what) { return Tell("the other minimum, " + what, 0.9); });
-  Charge("other minimum");
+  clock_->Charge("other minimum");
   if (!other.ok || other.interrupted) return;
   FitResult best;
   best.values = optimum_.values;
@@ -202,7 +202,7 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
   std::vector<Profile> profiles(shown.size());
   if (options_.profiles && !hurried_ && Tell("profiles of the likelihood", 0.85))
     profiles = FindProfiles(model_, optimum_, noise_, shown);
-  Charge("profiles");
+  clock_->Charge("profiles");
 
   const Eigen::VectorXd fitted = optimum_.values;
   const Eigen::VectorXd sds = determination.covariance.diagonal().cwiseMax(0).cwiseSqrt();
@@ -242,6 +242,7 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
   estimation_.combinations = determination.combinations;
 
   if (!hurried_) KeepDefaults(determination);
+  clock_->Charge("fit");
   for (int i = 0; i < unknowns_.size(); ++i)
     if (!estimation_.parameters[i].determined) estimation_.parameters[i].value = optimum_.values[i];
   Eigen::VectorXd values = optimum_.values;
@@ -256,12 +257,13 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
   ReportChannels();
   ReportSampling();
   ReportFarFromGiven();
+  clock_->Charge("models without mechanics");
   if (!hurried_) ReportOtherMinimum();
   estimation_.converged = end_.empty();
   if (!end_.empty())
     estimation_.warnings.push_back("these are the best values so far, and no minimum: " + end_);
   estimation_.ok = true;
-  estimation_.seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
+  estimation_.seconds = clock_->seconds();
 }
 
 }  // namespace cosserat_cable

@@ -9,8 +9,6 @@
 namespace cosserat_cable {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 constexpr int kMaxRounds = 6;
 // A further round of steps, noise and fit is worth it where values moved by more than this part of
 // their standard deviation, or a noise by this part.
@@ -52,18 +50,6 @@ Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::Matr
     if (count(i, column) > 0)
       residuals.push_back(experiment.record.values(i, column) - simulated(i, column));
   return Eigen::Map<Eigen::VectorXd>(residuals.data(), static_cast<Eigen::Index>(residuals.size()));
-}
-
-void EstimationWork::Charge(const std::string& stage) {
-  const Clock::time_point now = Clock::now();
-  auto& stages = estimation_.stages;
-  auto place = std::find_if(stages.begin(), stages.end(),
-                            [&](const StageCost& one) { return one.name == stage; });
-  if (place == stages.end()) place = stages.insert(place, {stage, 0, {}});
-  place->seconds += std::chrono::duration<double>(now - charged_at_).count();
-  place->count += model_.count() - charged_;
-  charged_ = model_.count();
-  charged_at_ = now;
 }
 
 /// One for samples that a sensor measured and the simulation resolves; all that were measured where
@@ -111,7 +97,7 @@ bool EstimationWork::FitInRounds() {
   for (int round = 0; round < kMaxRounds; ++round) {
     if (!Tell("comparing with finer steps", kPartOfStart + kPartOfRound * round)) return false;
     estimation_.discretisation = model_.Refine(optimum_.values, noise_);
-    Charge("steps in space and time");
+    clock_->Charge("steps in space and time");
     const Eigen::VectorXd before = optimum_.values;
     const FitProgress progress = [&](const std::string& what) {
       return Tell("fitting whole records, " + what, kPartOfStart + kPartOfRound * (round + 0.5));
@@ -137,7 +123,7 @@ bool EstimationWork::FitInRounds() {
       if (fit_.interrupted) return false;
     }
     steps_ = fit_.steps;
-    Charge("fit");
+    clock_->Charge("fit");
     const RecordModel::Simulated found =
         model_.Simulate({optimum_.values}, model_.WholeHorizon()).front();
     if (!found.ok) return false;
@@ -205,7 +191,7 @@ bool EstimationWork::Hurry() {
     optimum_.jacobian = std::move(last.jacobian);
   }
   FindColours();
-  Charge("derivatives at the end");
+  clock_->Charge("derivatives at the end");
   return true;
 }
 
@@ -230,8 +216,8 @@ bool EstimationWork::Conclude() {
   simulated_ = std::move(found.simulated);
   optimum_.jacobian = std::move(found.jacobian);
   optimum_.residuals = std::move(found.residuals);
-  Charge("derivatives at the end");
   FindColours();
+  clock_->Charge("derivatives at the end");
   return true;
 }
 
@@ -248,9 +234,10 @@ bool EstimationWork::FitFromStart() {
     guesses.push_back(guess);
   }
   LeaveOutDamaged();
+  clock_->Charge("noise of the records");
   const FitProgress early = [&](const std::string& what) { return Tell(what, 0.1); };
   const FitResult start = FitFromAfar(&model_, guesses, noise_, early, &rival_);
-  Charge("search");
+  clock_->Charge("search");
   if (!start.ok) {
     estimation_.interrupted = model_.Stopping();
     estimation_.message =
@@ -294,8 +281,6 @@ bool EstimationWork::FitFrom(const EstimationWork& before) {
   for (std::size_t e = 0; e < experiments().size(); ++e)
     if (before.model_.IsLeftOut(static_cast<int>(e))) model_.LeaveOut(static_cast<int>(e));
   estimation_.warnings = before.estimation_.warnings;
-  estimation_.stages = before.estimation_.stages;
-  begin_ = before.begin_;
   return FitToEnd();
 }
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <atomic>
-#include <chrono>
 #include <string>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "cosserat_cable/identification/estimation.h"
 #include "profile.h"
 #include "record_scatter.h"
+#include "stage_clock.h"
 
 namespace cosserat_cable {
 
@@ -22,8 +22,9 @@ Eigen::VectorXd CountedResiduals(const Experiment& experiment, const Eigen::Matr
 
 class EstimationWork {
  public:
-  EstimationWork(const Unknowns& unknowns, const EstimationOptions& options)
-      : unknowns_(unknowns), options_(options), model_(unknowns) {
+  /// What is done is charged to `clock`, which the time budget counts from.
+  EstimationWork(const Unknowns& unknowns, const EstimationOptions& options, StageClock* clock)
+      : unknowns_(unknowns), options_(options), clock_(clock), model_(unknowns) {
     model_.SetStop([this] { return Stopped() || OutOfTime(); });
   }
   EstimationWork(const EstimationWork&) = delete;
@@ -44,10 +45,7 @@ class EstimationWork {
   Estimation Answer() const { return estimation_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
   const std::vector<Experiment>& experiments() const { return unknowns_.set().experiments; }
-  /// What was simulated since the last call belongs to this stage.
-  void Charge(const std::string& stage);
   bool Tell(const std::string& what, double part) {
     if (options_.progress && !options_.progress(what, part)) stopped_ = true;
     return !model_.Stopping();
@@ -62,8 +60,7 @@ class EstimationWork {
   bool FitToEnd();
   bool Stopped() const { return stopped_ || (options_.stop && options_.stop()); }
   bool OutOfTime() const {
-    return options_.time_budget > 0 &&
-           std::chrono::duration<double>(Clock::now() - begin_).count() > options_.time_budget;
+    return options_.time_budget > 0 && clock_->seconds() > options_.time_budget;
   }
   bool Hurry();
   void LoosenNoise();
@@ -84,6 +81,7 @@ class EstimationWork {
 
   const Unknowns& unknowns_;
   const EstimationOptions& options_;
+  StageClock* clock_;
   RecordModel model_;
   NoiseLevels noise_;
   Optimum optimum_;
@@ -97,8 +95,6 @@ class EstimationWork {
   Records simulated_;
   std::vector<std::vector<NoiseColour>> colours_;
   Estimation estimation_;
-  Clock::time_point begin_ = Clock::now(), charged_at_ = begin_;
-  SimulationCount charged_;
 };
 
 }  // namespace cosserat_cable

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "cosserat_cable/identification/estimation.h"
 #include "cosserat_cable/identification/identified_cable.h"
 #include "plan_answer.h"
+#include "stage_clock.h"
 
 namespace cosserat_cable {
 namespace {
@@ -35,9 +37,30 @@ void CheckOutputs(const IdentifyRunOptions& options, const MeasurementSet& set,
   outputs.Check(problems);
 }
 
+/// With the times so far.
+void WriteNumbers(const IdentifyRunOptions& options, const StageClock& clock,
+                  nlohmann::json* answer) {
+  TellTimes(clock.seconds(), clock.stages(), answer);
+  const std::string text = answer->dump(2) + "\n";
+  WriteWhole((fs::path(options.output) / "identification.json").string(), text);
+  if (!options.json.empty()) WriteWhole(options.json, text);
+}
+
+/// What `write` cannot write is told.
+ExitCode Written(const std::function<void()>& write) {
+  try {
+    write();
+    return kExitDone;
+  } catch (const std::exception& error) {
+    std::cerr << error.what() << "\n";
+    return kExitFileTrouble;
+  }
+}
+
 }  // namespace
 
 ExitCode RunIdentify(const IdentifyRunOptions& options) {
+  StageClock clock;
   Problems problems, warnings;
   const MeasurementSet set = LoadMeasurementSet(options.set, &problems);
   if (problems.empty()) CheckPlausibility(set, &problems, &warnings);
@@ -49,6 +72,7 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   };
   if (!problems.empty()) return refuse();
 
+  clock.Charge("reading");
   CatchInterrupts();
   EstimationOptions estimation_options;
   estimation_options.unknowns = options.unknowns;
@@ -71,10 +95,14 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
       direct = EvaluateDirectly(set);
       for (const auto& [name, value] : direct.values)
         estimation_options.guesses.push_back({name, value.value});
+      clock.Charge("frequencies and decay rates");
     }
     estimation = Estimate(set, estimation_options, &problems);
-    if (options.plan && estimation.ok && !Interrupted())
+    clock.Charge(estimation.stages);
+    if (options.plan && estimation.ok && !Interrupted()) {
       plan = MakePlan(set, estimation, options.plan_options, estimation_options.progress);
+      clock.Charge("plan");
+    }
   }
   if (!problems.empty()) return refuse();
   if (!estimation.ok) {
@@ -94,24 +122,23 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   nlohmann::json answer = AnswerJson(set, estimation);
   if (options.direct) answer["direct"] = ToJson(direct);
   if (options.plan) answer["plan"] = PlanJson(plan);
-  try {
+  const ExitCode written = Written([&] {
     const fs::path folder(options.output);
     fs::create_directories(folder / "fit");
     for (std::size_t e = 0; e < set.experiments.size(); ++e)
       WriteWhole((folder / "fit" / (set.experiments[e].name + ".csv")).string(),
                  FitCsv(set.experiments[e], estimation.experiments[e]));
     WriteWhole((folder / "identified_cable.yaml").string(), IdentifiedCableText(set, estimation));
-    WriteWhole((folder / "identification.json").string(), answer.dump(2) + "\n");
-    if (!options.json.empty()) WriteWhole(options.json, answer.dump(2) + "\n");
-  } catch (const std::exception& error) {
-    std::cerr << error.what() << "\n";
-    return kExitFileTrouble;
-  }
+    clock.Charge("writing");
+    WriteNumbers(options, clock, &answer);
+  });
+  if (written != kExitDone) return written;
   std::cout << AnswerTable(set, estimation);
   if (options.plan) std::cout << PlanTable(plan);
   for (const std::string& warning : estimation.warnings)
     std::cerr << "warning: " << warning << "\n";
-  std::printf("identified in %.1f s\n", estimation.seconds);
+  std::printf("identified in %.1f s\n", clock.seconds());
+  std::fflush(stdout);  // before the report's program speaks
   if (estimation.interrupted) {
     std::cerr << options.output << ": interrupted: what was found so far was written\n";
     return kExitInterrupted;
@@ -119,9 +146,13 @@ ExitCode RunIdentify(const IdentifyRunOptions& options) {
   if (!options.report) return kExitDone;
   std::vector<std::string> report = {options.report_program, options.output};
   if (options.pdf) report.push_back("--pdf");
-  if (RunProgram(report)) return kExitDone;
-  std::cerr << options.output << "/report.html: could not be written; the numbers are there\n";
-  return kExitFileTrouble;
+  if (!RunProgram(report)) {
+    std::cerr << options.output << "/report.html: could not be written; the numbers are there\n";
+    return kExitFileTrouble;
+  }
+  clock.Charge("report");
+  std::printf("with its report in %.1f s\n", clock.seconds());
+  return Written([&] { WriteNumbers(options, clock, &answer); });
 }
 
 }  // namespace cosserat_cable

@@ -1,9 +1,12 @@
 #include "record_noise.h"
 
-#include <Eigen/QR>
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <complex>
+#include <utility>
+
+#include "column_span.h"
+#include "uneven_transform.h"
 
 namespace cosserat_cable {
 namespace {
@@ -17,6 +20,8 @@ constexpr double kChance = 0.01;
 // -2 ln(likelihood) by which correlation must beat white noise: chance does in one of 10,000.
 constexpr double kClearly = 13.8;
 constexpr double kStrongest = 0.9995;
+// Of the correlation time's logarithm: to half a percent of the time and better.
+constexpr int kBits = 12;
 
 double Deviance(const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
                 const NoiseCorrelation& noise) {
@@ -27,22 +32,19 @@ double Deviance(const Eigen::VectorXd& residual, const Eigen::MatrixXd& slopes,
   if (slopes.cols() > 0) {
     Eigen::MatrixXd columns = slopes;
     noise.Whiten(columns);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(columns);
-    white = (qr.householderQ().adjoint() * white).eval();
-    white.head(columns.cols()).setZero();
     freedom -= static_cast<double>(columns.cols());
-    lost = 2 * qr.matrixQR().diagonal().cwiseAbs().array().log().sum();
+    const ColumnSpan span(std::move(columns));
+    span.Leave(white);
+    lost = span.LogDeterminantOfGram();
   }
   return freedom * std::log(std::max(white.squaredNorm() / freedom, 1e-300)) +
          noise.LogDeterminant() + lost;
 }
 
-NoiseCorrelation Exponential(const Eigen::VectorXd& t, double time) {
+NoiseCorrelation Exponential(const Eigen::ArrayXd& intervals, double time) {
   NoiseCorrelation noise;
-  noise.correlation = Eigen::VectorXd::Zero(t.size());
-  for (Eigen::Index i = 1; i < t.size(); ++i) {
-    noise.correlation[i] = std::min(std::exp(-(t[i] - t[i - 1]) / time), kStrongest);
-  }
+  noise.correlation = Eigen::VectorXd::Zero(intervals.size() + 1);
+  noise.correlation.tail(intervals.size()) = (-intervals / time).exp().min(kStrongest);
   return noise;
 }
 
@@ -52,34 +54,19 @@ CorrelationFit FitCorrelation(const Eigen::VectorXd& t, const Eigen::VectorXd& r
                               const Eigen::MatrixXd& slopes) {
   CorrelationFit white;
   white.deviance = Deviance(residual, slopes, white.noise);
-  const double mean_step = (t[t.size() - 1] - t[0]) / static_cast<double>(t.size() - 1);
+  const Eigen::Index last = t.size() - 1;
+  const Eigen::ArrayXd intervals = t.tail(last) - t.head(last);
+  const double duration = t[last] - t[0];
   const auto deviance = [&](double log_time) {
-    return Deviance(residual, slopes, Exponential(t, std::exp(log_time)));
+    return Deviance(residual, slopes, Exponential(intervals, std::exp(log_time)));
   };
-  // From nothing (correlation 1e-4 of neighbours) to the record's length; golden section.
-  double low = std::log(0.11 * mean_step), high = std::log(t[t.size() - 1] - t[0]);
-  const double golden = (std::sqrt(5.0) - 1) / 2;
-  double a = high - golden * (high - low), b = low + golden * (high - low);
-  double at_a = deviance(a), at_b = deviance(b);
-  while (high - low > 0.01) {
-    if (at_a < at_b) {
-      high = b;
-      b = a;
-      at_b = at_a;
-      a = high - golden * (high - low);
-      at_a = deviance(a);
-    } else {
-      low = a;
-      a = b;
-      at_a = at_b;
-      b = low + golden * (high - low);
-      at_b = deviance(b);
-    }
-  }
+  // From nothing (correlation 1e-4 of neighbours) to the record's length.
+  const auto [log_time, least] = boost::math::tools::brent_find_minima(
+      deviance, std::log(0.11 * duration / static_cast<double>(last)), std::log(duration), kBits);
   CorrelationFit fit;
-  fit.time = std::exp((low + high) / 2);
-  fit.noise = Exponential(t, fit.time);
-  fit.deviance = Deviance(residual, slopes, fit.noise);
+  fit.time = std::exp(log_time);
+  fit.noise = Exponential(intervals, fit.time);
+  fit.deviance = least;
   fit.parameters = 1;
   return fit.deviance < white.deviance - kClearly ? fit : white;
 }
@@ -90,19 +77,12 @@ Periodogram MakePeriodogram(const Eigen::VectorXd& t, const Eigen::VectorXd& res
   const double duration = t[n - 1] - t[0];
   Periodogram result;
   result.step = kPi / duration;
-  result.power.resize(n - 1);
   const double variance = std::max(residual.head(n).squaredNorm() / static_cast<double>(n), 1e-300);
   const Eigen::ArrayXd weight = (-decay * (t.head(n).array() - t[0])).exp();
   const Eigen::ArrayXd x = weight * residual.head(n).array();
-  // Turned on from one frequency to the next: no sine per sample and frequency.
-  const Eigen::ArrayXcd turn =
-      (std::complex<double>(0, -1) * result.step * (t.head(n).array() - t[0])).exp();
-  Eigen::ArrayXcd turned =
-      (std::complex<double>(0, -0.5) * result.step * (t.head(n).array() - t[0])).exp() * x;
-  for (Eigen::Index k = 0; k < result.power.size(); ++k) {
-    result.power[k] = std::norm(turned.sum()) / (weight.square().sum() * variance);
-    turned *= turn;
-  }
+  result.power =
+      UnevenTransform(result.step * (t.head(n).array() - t[0]), x, n - 1).abs2().matrix() /
+      (weight.square().sum() * variance);
   return result;
 }
 

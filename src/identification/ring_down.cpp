@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <vector>
 
 #include "cosserat_cable/input/number_text.h"
 #include "damped_terms.h"
@@ -54,6 +55,7 @@ int Parameters(const std::vector<DampedTerm>& terms) {
 class Growth {
  public:
   Growth(const Eigen::VectorXd& t, const Eigen::VectorXd& y) : t_(t), y_(y) {
+    for (const double decay : kDecays) decays_.push_back((-decay / duration() * t.array()).exp());
     best_ = Fit({}, CorrelationFit());
     while (best_.fit.terms.size() < kMostTerms && Grow()) {
     }
@@ -90,12 +92,16 @@ class Growth {
     return c;
   }
 
-  // How much of the residual's sum of squares a term takes away.
-  double Gain(const DampedTerm& term, const NoiseCorrelation& noise) const {
-    Eigen::MatrixXd columns = TermColumns(t_, {term});
-    Eigen::MatrixXd residual = best_.fit.residual;
-    noise.Whiten(columns);
+  Eigen::VectorXd White(const NoiseCorrelation& noise) const {
+    Eigen::VectorXd residual = best_.fit.residual;
     noise.Whiten(residual);
+    return residual;
+  }
+
+  // How much of the white residual's sum of squares a term with these columns takes away.
+  static double Gain(Eigen::MatrixXd columns, const NoiseCorrelation& noise,
+                     const Eigen::VectorXd& residual) {
+    noise.Whiten(columns);
     // Normal equations do for a start; the ridge keeps a column of zeros from dividing by zero.
     Eigen::MatrixXd normal = columns.transpose() * columns;
     normal.diagonal() *= 1 + 1e-9;
@@ -105,15 +111,21 @@ class Growth {
   }
 
   DampedTerm StartNear(double omega, double step, const NoiseCorrelation& noise) const {
+    const Eigen::VectorXd residual = White(noise);
     DampedTerm best;
     double most = -1;
+    Eigen::MatrixXd columns = Eigen::MatrixXd::Ones(t_.size(), 3);
     for (const double beside : kBeside) {
-      for (const double decay : kDecays) {
-        DampedTerm term;
-        term.omega = std::max(omega + beside * step, 0.25 * step);
-        term.delta = decay / duration();
+      DampedTerm term;
+      term.omega = std::max(omega + beside * step, 0.25 * step);
+      const Eigen::ArrayXd phase = term.omega * t_.array();
+      const Eigen::ArrayXd cosine = phase.cos(), sine = phase.sin();
+      for (std::size_t k = 0; k < decays_.size(); ++k) {
+        term.delta = kDecays[k] / duration();
         if (term.delta > 2 * term.omega) continue;
-        const double gain = Gain(term, noise);
+        columns.col(1) = decays_[k] * cosine;
+        columns.col(2) = decays_[k] * sine;
+        const double gain = Gain(columns, noise, residual);
         if (gain > most) {
           most = gain;
           best = term;
@@ -124,13 +136,14 @@ class Growth {
   }
 
   DampedTerm StartCreep(const NoiseCorrelation& noise) const {
+    const Eigen::VectorXd residual = White(noise);
     DampedTerm best;
     double most = -1;
     for (const double rate : kCreeps) {
       DampedTerm term;
       term.oscillates = false;
       term.delta = rate / duration();
-      const double gain = Gain(term, noise);
+      const double gain = Gain(TermColumns(t_, {term}), noise, residual);
       if (gain > most) {
         most = gain;
         best = term;
@@ -140,17 +153,17 @@ class Growth {
   }
 
   // Where the start takes nowhere near enough away, no search from it would.
-  bool IsHopeless(const DampedTerm& term, const CorrelationFit& noise) const {
-    Eigen::VectorXd residual = best_.fit.residual;
-    noise.noise.Whiten(residual);
+  bool IsHopeless(const DampedTerm& term, const NoiseCorrelation& noise) const {
+    const Eigen::VectorXd residual = White(noise);
     const double n = static_cast<double>(t_.size());
     const double needed = kDecisive + (term.linear() + term.nonlinear()) * std::log(n);
-    return Gain(term, noise.noise) * n < kWorthTrying * needed * residual.squaredNorm();
+    return Gain(TermColumns(t_, {term}), noise, residual) * n <
+           kWorthTrying * needed * residual.squaredNorm();
   }
 
   void Try(std::vector<DampedTerm> terms, const DampedTerm& added, const CorrelationFit& noise,
            Candidate* winner) const {
-    if (IsHopeless(added, noise)) return;
+    if (IsHopeless(added, noise.noise)) return;
     terms.push_back(added);
     Candidate candidate = Fit(terms, noise);
     if (candidate.criterion < winner->criterion) *winner = std::move(candidate);
@@ -204,6 +217,7 @@ class Growth {
 
   const Eigen::VectorXd& t_;
   const Eigen::VectorXd& y_;
+  std::vector<Eigen::ArrayXd> decays_;  // exp(-decay t), by kDecays
   Candidate best_;
 };
 

@@ -72,14 +72,18 @@ bool PullTo(const PointAt& target, double closed, rod::Rod* rod) {
   spring.target = target.position_W;
   const Eigen::Vector3d way = spring.Gap(*rod);
   const int strides = std::max(1, static_cast<int>(std::ceil(way.norm() / (kMaxStride * length))));
+  // Strides and gaps are small: the detour by way of softer rods is for those that lose their way.
+  const auto follow = [&] {
+    return rod->EquilibrateNearby(&spring).converged || rod->Equilibrate(&spring).converged;
+  };
   for (int k = 1; k < strides; ++k) {
     spring.target = target.position_W - way * (1.0 - static_cast<double>(k) / strides);
-    if (!rod->Equilibrate(&spring).converged) return false;
+    if (!follow()) return false;
     spring.TakeUp(*rod);
   }
   spring.target = target.position_W;
   for (int round = 0; round < kMaxRounds; ++round) {
-    if (!rod->Equilibrate(&spring).converged) return false;
+    if (!follow()) return false;
     const Eigen::Vector3d gap = target.position_W - PointOn(*rod, target.s);
     if (gap.norm() < closed * length) return true;
     spring.TakeUp(*rod);

@@ -82,7 +82,9 @@ def answer():
         'warnings': ['bend: the record ends after two periods'], 'messages': ['11 steps of Ceres'],
         'plan': {'target': {'parameter': 'eta_GJ', 'accuracy': 0.1}, 'candidates': candidates,
                  'recommended': candidates[-1]},
-        'seconds': 12.3}
+        'seconds': 12.3,
+        'stages': [{'stage': 'reading', 'seconds': 0.1, 'simulations': 0, 'steps': 0},
+                   {'stage': 'search', 'seconds': 12.2, 'simulations': 584, 'steps': 144742}]}
 
 
 # Two experiments, profiles, correlation, direct beside full, torsion over 1/L, plan.
@@ -132,7 +134,8 @@ class IdentificationReport(unittest.TestCase):
                      'EI to ±2.1 %', 'eta_GJ/L + D_E', 'gravity stiffens it', 'two periods',
                      'no channel shows a ring-down', 'For ±10 % on eta_GJ: 10 repeats',
                      'bend: side fits with its sign turned. It would leave 1 times the noise '
-                     'instead of 2.5.', '11 steps of Ceres', '+22 %', '12.3 s'):
+                     'instead of 2.5.', '11 steps of Ceres', '+22 %', 'Identified in 12.3 s',
+                     '144,742'):
             self.assertIn(text, page.text)
         self.assertEqual(contents(self.at('report.pdf'))[:5], b'%PDF-')
 

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import tempfile
+import time
 import unittest
 
 import yaml
@@ -26,6 +27,8 @@ DIRECT_BIAS = (0.15, 0.30)  # of eq. (11) for it: gravity's 20 %, give or take t
 BEYOND_LUCK = 4.0
 # A set's own cable against noise: the rms of what is left is the noise's within so much.
 NOISE = 0.15
+# Of the time of a whole process, what its stages may leave out: its start, on a busy machine too.
+UNTOLD = 0.1
 
 
 def run(program, *arguments):
@@ -108,7 +111,15 @@ class Identify(unittest.TestCase):
 
     def test_bending_and_torsion_of_a_random_cable_with_a_report(self):
         truth = self.generate('random', '--seed', 2, '--snr', 30)
+        begin = time.monotonic()
         answer, _ = self.identify()
+        taken = time.monotonic() - begin
+        stages = {stage['stage']: stage for stage in answer['stages']}
+        self.assertGreater(stages['search']['simulations'], 0)
+        self.assertIn('report', stages)
+        told = sum(stage['seconds'] for stage in answer['stages'])
+        self.assertLess(told, taken)
+        self.assertGreater(told, (1 - UNTOLD) * taken)
         self.check(answer, truth, ('EI', 'eta_EI', 'GJ', 'eta_GJ', END_DAMPING))
         self.check_clean(answer)
         with open(self.path('answer', 'report.html')) as file:

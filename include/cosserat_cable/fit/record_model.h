@@ -131,12 +131,20 @@ class RecordModel {
 
   /// What has been simulated so far.
   SimulationCount count() const { return *count_; }
+  /// The same of all models of this process, those that are gone included.
+  static SimulationCount CountOfAll();
 
  private:
   struct SharedCount {
     std::atomic<long> simulations{0}, steps{0}, element_steps{0};
     operator SimulationCount() const { return {simulations, steps, element_steps}; }
+    void Add(const SimulationCount& more) {
+      simulations += more.simulations;
+      steps += more.steps;
+      element_steps += more.element_steps;
+    }
   };
+  static SharedCount& OfAll();
   using Points = std::vector<Eigen::VectorXd>;
   /// What steps do to a record, and how well that is known.
   struct StepsEffect {

@@ -122,7 +122,7 @@ struct Estimation {
   std::vector<ChannelSlip> slips;  ///< what would explain records that do not fit
   double discretisation = 0;       ///< what the steps did to the records, corrected; parts of range
   double seconds = 0;
-  std::vector<StageCost> stages;  ///< in the order in which they were first entered
+  std::vector<StageCost> stages;  ///< of all of that, in the order in which they were first entered
 };
 
 /// Mistakes of the set go to `problems`.
