@@ -1,6 +1,7 @@
 // What a cable simulation is made of; shared by those that step one cable and several.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "contact_set.h"
@@ -71,6 +72,8 @@ struct CableSimulation::Impl {
   /// The step in halves, and halves of halves, after it did not converge as a whole. A step that
   /// fails leaves the state as it was.
   StepOutcome StepInParts(double dt, const Surroundings& then, int iterations_so_far);
+  /// What to say of the state where steps down to `step` [s] did not converge, and what to do.
+  std::string WhyNotConverged(double step) const;
 
   CableModel model;
   rod::Rod rod;
