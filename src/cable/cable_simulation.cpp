@@ -120,6 +120,27 @@ StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& th
   return outcome;
 }
 
+std::vector<double> CableSimulation::State() const {
+  StateArchive state;
+  impl_->ExchangeState(&state);
+  std::vector<double> numbers = state.numbers();
+  const std::vector<double> of_rod = impl_->rod.State();
+  numbers.insert(numbers.end(), of_rod.begin(), of_rod.end());
+  return numbers;
+}
+
+void CableSimulation::SetState(const std::vector<double>& state) {
+  Impl& m = *impl_;
+  StateArchive own;
+  m.ExchangeState(&own);
+  const std::size_t count = std::min(own.numbers().size(), state.size());
+  const auto middle = state.begin() + static_cast<std::ptrdiff_t>(count);
+  StateArchive archive({state.begin(), middle});
+  m.ExchangeState(&archive);
+  m.rod.SetState({middle, state.end()});
+  m.nodes_are_known = false;
+}
+
 std::string CableSimulation::Impl::WhyNotConverged(double step) const {
   double tension = 0, curvature = 0;
   for (int e = 0; e < model.elements; ++e) {

@@ -63,6 +63,12 @@ struct CableSimulation::Impl {
     rod.Predict(dt, then.a.X, then.b.X, &positions);
     contact.Search(then.a.X, positions, then.obstacles);
   }
+  /// Of all but the rod.
+  void ExchangeState(StateArchive* state) {
+    contact.ExchangeState(state);
+    now.obstacles.resize(contact.body_count());
+    state->Exchange(&now.a, &now.b, &now.obstacles);
+  }
   /// A whole step has converged.
   void Accept(const Surroundings& then) {
     contact.Accept();

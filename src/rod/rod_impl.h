@@ -56,6 +56,8 @@ struct Rod::Impl {
   /// To be called before the state is read, and before it is changed.
   void Fetch();
   void MoveOut();
+  /// Of all that is not made of the model anew for each step.
+  void ExchangeState(StateArchive* state);
 
   // The nodes that are unknown.
   int first_free() const { return model.a.clamped() ? 1 : 0; }
