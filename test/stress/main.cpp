@@ -1,14 +1,15 @@
 // Puts the solver under stress with random cables; docs/reliability.md says with which, and has the
 // figures. Fails where a promise made there is broken.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <map>
 
-#include "../../src/apps/parse_arguments.h"
 #include "cosserat_cable/console/exit_code.h"
 #include "cosserat_cable/console/interrupt.h"
 #include "cosserat_cable/console/progress.h"
 #include "cosserat_cable/console/run_tool.h"
+#include "parse_arguments.h"
 #include "stress/stress_run.h"
 
 namespace cosserat_cable::stress {
