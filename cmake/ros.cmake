@@ -116,8 +116,8 @@ if(CATKIN_ENABLE_TESTING)
     add_dependencies(tests ros_test)
   endif()
 
-  foreach(name cli modes_cli options recordings_cli streams_cli numbers_cli apex_check_cli
-    damaged_bags_cli large_inputs_cli outputs_cli meshes_cli rviz)
+  foreach(name cli modes_cli options recordings_cli failures_cli streams_cli numbers_cli
+    apex_check_cli damaged_bags_cli large_inputs_cli outputs_cli meshes_cli rviz)
     add_test(NAME ${name}_test
       COMMAND ${CATKIN_ENV} ${PYTHON_EXECUTABLE}
         ${CMAKE_CURRENT_SOURCE_DIR}/test/ros/${name}_test.py)

@@ -163,6 +163,13 @@ void ReadFile(const YamlValue& root, SectionFiles* sections, CableFile* file, Pr
 
 }  // namespace
 
+CableFile ReadCableFile(const YamlValue& root, Problems* problems) {
+  CableFile file;
+  SectionFiles sections({}, problems);
+  ReadFile(root, &sections, &file, problems);
+  return file;
+}
+
 CableFile LoadCableFile(const std::string& path, Problems* problems,
                         const std::vector<std::string>& section_texts) {
   CableFile file;

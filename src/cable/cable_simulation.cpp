@@ -6,6 +6,8 @@
 
 #include "cable_simulation_impl.h"
 #include "cosserat_cable/cable/cable_rod.h"
+#include "cosserat_cable/cable/resolution.h"
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/math/motion_between.h"
 
 namespace cosserat_cable {
@@ -109,14 +111,46 @@ StepOutcome CableSimulation::Impl::StepInParts(double dt, const Surroundings& th
       rod = std::move(rod_at_start);
       contact = std::move(contact_at_start);
       outcome.ok = false;
-      outcome.message = "Newton's iteration does not converge, with steps down to " +
-                        std::to_string(step * 1e6) + " us";
+      outcome.message = WhyNotConverged(step);
       return outcome;
     }
   }
   now = then;
   nodes_are_known = false;
   return outcome;
+}
+
+std::vector<double> CableSimulation::State() const {
+  StateArchive state;
+  impl_->ExchangeState(&state);
+  std::vector<double> numbers = state.numbers();
+  const std::vector<double> of_rod = impl_->rod.State();
+  numbers.insert(numbers.end(), of_rod.begin(), of_rod.end());
+  return numbers;
+}
+
+void CableSimulation::SetState(const std::vector<double>& state) {
+  Impl& m = *impl_;
+  StateArchive own;
+  m.ExchangeState(&own);
+  const std::size_t count = std::min(own.numbers().size(), state.size());
+  const auto middle = state.begin() + static_cast<std::ptrdiff_t>(count);
+  StateArchive archive({state.begin(), middle});
+  m.ExchangeState(&archive);
+  m.rod.SetState({middle, state.end()});
+  m.nodes_are_known = false;
+}
+
+std::string CableSimulation::Impl::WhyNotConverged(double step) const {
+  double tension = 0, curvature = 0;
+  for (int e = 0; e < model.elements; ++e) {
+    tension = std::max(tension, rod.force(e).z());
+    curvature = std::max(curvature, rod.curvature(e).head<2>().norm());
+  }
+  const std::string too_long = TooLongElements(model, tension, curvature);
+  return "Newton's iteration does not converge, with steps down to " + FormatRounded(1e6 * step) +
+         " us: do clamps or bodies jump, or shake faster than the time step resolves?" +
+         (too_long.empty() ? "" : " Or else, " + too_long);
 }
 
 const CableModel& CableSimulation::model() const { return impl_->model; }

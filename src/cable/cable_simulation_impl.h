@@ -1,6 +1,7 @@
 // What a cable simulation is made of; shared by those that step one cable and several.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "contact_set.h"
@@ -62,6 +63,12 @@ struct CableSimulation::Impl {
     rod.Predict(dt, then.a.X, then.b.X, &positions);
     contact.Search(then.a.X, positions, then.obstacles);
   }
+  /// Of all but the rod.
+  void ExchangeState(StateArchive* state) {
+    contact.ExchangeState(state);
+    now.obstacles.resize(contact.body_count());
+    state->Exchange(&now.a, &now.b, &now.obstacles);
+  }
   /// A whole step has converged.
   void Accept(const Surroundings& then) {
     contact.Accept();
@@ -71,6 +78,8 @@ struct CableSimulation::Impl {
   /// The step in halves, and halves of halves, after it did not converge as a whole. A step that
   /// fails leaves the state as it was.
   StepOutcome StepInParts(double dt, const Surroundings& then, int iterations_so_far);
+  /// What to say of the state where steps down to `step` [s] did not converge, and what to do.
+  std::string WhyNotConverged(double step) const;
 
   CableModel model;
   rod::Rod rod;

@@ -161,6 +161,15 @@ void ContactSet::Reset() {
   searched_.clear();
 }
 
+void ContactSet::ExchangeState(StateArchive* state) {
+  // How near the whole cable came is only a bound that saves searches: it is found anew.
+  if (state->reading()) Reset();
+  const auto exchange = [&](auto* item) { item->ExchangeState(state); };
+  state->ExchangeEach(&trackers_, exchange);
+  state->Exchange(&known_);
+  state->ExchangeEach(&watches_, exchange);
+}
+
 ContactSet::Gap ContactSet::MeasureGap(const Plane& plane, const rod::Centreline& rod) const {
   const ContactSite& site = sites_[plane.site];
   const int e = site.element;

@@ -36,7 +36,11 @@ class ContactSet : public rod::Load {
   /// Forgets every side, as for a cable that is put somewhere else.
   void Reset();
 
+  /// Of what Accept has remembered; after reading, nothing is searched yet.
+  void ExchangeState(StateArchive* state);
+
   bool has_bodies() const { return !bodies_.empty(); }
+  std::size_t body_count() const { return bodies_.size(); }
   bool empty() const { return planes_.empty(); }
   const std::vector<ContactSite>& sites() const { return sites_; }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cosserat_cable/contact/point_rows.h"
+#include "cosserat_cable/math/state_archive.h"
 
 namespace cosserat_cable {
 
@@ -24,6 +25,8 @@ class ElementWatches {
   void Forget(std::size_t element) { Row(kDistance)[element] = -kInfinity; }
   /// The lower bound given last [m]; -infinity: none.
   double distance(std::size_t element) const { return Row(kDistance)[element]; }
+
+  void ExchangeState(StateArchive* state) { state->Exchange(&data_); }
 
   /// Takes the nodes to where they are now, and returns the smallest bound of all elements [m].
   double Look(const PointRows& nodes_B);

@@ -31,6 +31,10 @@ class EndPart {
   const PrescribedMotion& prescribed() const { return clamp_; }
   void PutBack(const PrescribedMotion& clamp) { clamp_ = clamp; }
   void Start(const Motion& clamp) { clamp_.Start(clamp); }
+  void ExchangeState(StateArchive* state) {
+    clamp_.ExchangeState(state);
+    laws_.ForEach([&](EndLaw* law) { law->ExchangeState(state); });
+  }
   void MoveTo(const Pose& clamp, const StepCoefficients& c) { clamp_.MoveTo(clamp, c); }
 
   /// Puts what is held of the node's pose where the clamp has it.

@@ -1,6 +1,7 @@
 // The running account behind EnergyBalance.
 #pragma once
 
+#include "cosserat_cable/math/state_archive.h"
 #include "cosserat_cable/rod/energy.h"
 
 namespace cosserat_cable::rod {
@@ -38,6 +39,10 @@ class EnergyBook {
     dissipation_.Add(dt, flow.dissipation);
     lost_ += flow.lost;
   }
+  void ExchangeState(StateArchive* state) {
+    state->Exchange(&open_, &waits_, &stored_at_start_, &lost_, &by_section_);
+    for (Integral* integral : {&ends_, &loads_, &dissipation_}) integral->ExchangeState(state);
+  }
   /// What a change of the section puts in [J].
   void AddSectionChange(double work) { by_section_ += work; }
   EnergyBalance Balance(double stored) const {
@@ -59,6 +64,7 @@ class EnergyBook {
       power_ = power;
     }
     double work() const { return work_; }
+    void ExchangeState(StateArchive* state) { state->Exchange(&power_, &work_); }
 
    private:
     double power_ = 0, work_ = 0;

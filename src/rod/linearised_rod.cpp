@@ -3,72 +3,12 @@
 #include <algorithm>
 #include <iterator>
 
-#include "element_joint.h"
+#include "exact_tangent.h"
 #include "lane_view.h"
 #include "step_kernels.h"
 
 namespace cosserat_cable::rod {
 namespace {
-
-using V3 = Vec3<double>;
-
-// Steps of the derivatives [rad] and [of the element length]: the fourth-order difference is then
-// exact to 1e-12.
-constexpr double kStep = 1e-3;
-
-using Vector12 = Eigen::Matrix<double, 12, 1>;
-
-/// Derivatives of `f(first node, second node)`, a vector, by the displacements (world) and
-/// rotations (section frame) of an element's nodes: a column each.
-template <int kRows, class Function>
-Eigen::Matrix<double, kRows, 12> Derivatives(const Node<double>& a, const Node<double>& b, double h,
-                                             const Function& f) {
-  Eigen::Matrix<double, kRows, 12> derivatives;
-  for (int column = 0; column < 12; ++column) {
-    const bool turns = column % 6 >= 3;
-    const double step = turns ? kStep : kStep * h;
-    const auto at = [&](double by) -> Eigen::Matrix<double, kRows, 1> {
-      Node<double> nodes[2] = {a, b};
-      Node<double>& node = nodes[column / 6];
-      V3 d;
-      (column % 3 == 0 ? d.x : column % 3 == 1 ? d.y : d.z) = by;
-      if (turns)
-        node.q = node.q * Exp(d);
-      else
-        node.r += d;
-      return f(nodes[0], nodes[1]);
-    };
-    derivatives.col(column) =
-        (8 * (at(step) - at(-step)) - (at(2 * step) - at(-2 * step))) / (12 * step);
-  }
-  return derivatives;
-}
-
-/// What an element exerts under the force and moment of `stress`, wherever its nodes are.
-Vector12 ElementResidual(const Quat<double>& joint, const Node<double>& a, const Node<double>& b,
-                         const Bowing<double>& bowing, const ElementStress& stress) {
-  ElementState<double> state;
-  EvaluateStrain<double>(SeenThrough(joint, a), b, bowing, &state);
-  state.n = stress.n;
-  state.m = stress.m;
-  BowStress(bowing, &state);
-  ElementForces<double> forces = EvaluateForces(state, bowing);
-  TurnBack({joint, {1, 0, 0, 0}}, &forces);
-  Vector12 residual;
-  residual << -forces.f.x, -forces.f.y, -forces.f.z, forces.g1.x, forces.g1.y, forces.g1.z,
-      forces.f.x, forces.f.y, forces.f.z, forces.g2.x, forces.g2.y, forces.g2.z;
-  return residual;
-}
-
-/// Strains of an element, times its length.
-Eigen::Matrix<double, 6, 1> ElementStrains(const Quat<double>& joint, const Node<double>& a,
-                                           const Node<double>& b, const Bowing<double>& bowing) {
-  ElementState<double> state;
-  EvaluateStrain<double>(SeenThrough(joint, a), b, bowing, &state);
-  Eigen::Matrix<double, 6, 1> strains;
-  strains << state.u.x, state.u.y, state.u.z, state.theta.x, state.theta.y, state.theta.z;
-  return strains;
-}
 
 void AddElement(int e, const Eigen::Matrix<double, 12, 12>& k, SymmetricBands* bands) {
   bands->diagonal[e] += k.topLeftCorner<6, 6>();
@@ -115,20 +55,10 @@ LinearisedRod::LinearisedRod(const std::array<DynamicModulus, kComponents>& modu
   material.assign(kComponents, SymmetricBands(w->count));
   laws.assign(tangents.empty() ? 0 : kComponents, SymmetricBands(w->count));
   for (int e = 0; e + 1 < w->count; ++e) {
-    const Node<double>&a = w->trial[e], &b = w->trial[e + 1];
-    const Quat<double> joint = joints.empty() ? Quat<double>{1, 0, 0, 0} : joints[e];
+    const PlacedElement element = PlaceElement(*w, joints, e);
     // How the forces turn with the nodes, at constant stress.
-    const ElementStress stress = w->chain.Stress(e, 0);
-    const Bowing<double> bowing = w->chain.BowingOf(e, 0);
-    const Eigen::Matrix<double, 12, 12> turning =
-        Derivatives<12>(a, b, h, [&](const auto& one, const auto& two) {
-          return ElementResidual(joint, one, two, bowing, stress);
-        });
-    // The skew part adds up to the moments that a node lacks to balance: zero.
-    AddElement(e, 0.5 * (turning + turning.transpose()), &geometric);
-    const Eigen::Matrix<double, 6, 12> strains = Derivatives<6>(
-        a, b, h,
-        [&](const auto& one, const auto& two) { return ElementStrains(joint, one, two, bowing); });
+    AddElement(e, GeometricStiffness(element, w->chain.Stress(e, 0)), &geometric);
+    const Matrix6By12 strains = StrainDerivatives(element);
     const auto add = [&](int strain, double stiffness, int as_in) {
       AddElement(e, stiffness / h * strains.row(strain).transpose() * strains.row(strain),
                  &material[as_in]);

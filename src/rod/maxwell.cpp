@@ -11,6 +11,10 @@ std::unique_ptr<SectionBranch> MaxwellBranch::Clone() const {
   return std::make_unique<MaxwellBranch>(*this);
 }
 
+void MaxwellBranch::ExchangeState(StateArchive* state) {
+  for (State& of : states_) state->Exchange(&of.sigma, &of.strain);
+}
+
 void MaxwellBranch::SetElements(int elements) { states_.assign(elements, State()); }
 
 void MaxwellBranch::BeginStep(double dt) {

@@ -8,6 +8,7 @@
 
 #include "cosserat_cable/math/pose.h"
 #include "cosserat_cable/math/rotation.h"
+#include "cosserat_cable/math/state_archive.h"
 #include "step_coefficients.h"
 
 namespace cosserat_cable::rod {
@@ -20,6 +21,10 @@ class PrescribedMotion {
   void Start(const Motion& motion) {
     motion_ = motion;
     algorithm_ = {motion.a, motion.alpha};
+  }
+
+  void ExchangeState(StateArchive* state) {
+    state->Exchange(&motion_, &algorithm_.v, &algorithm_.omega);
   }
 
   /// A step later it is at `X`.

@@ -56,6 +56,8 @@ struct Rod::Impl {
   /// To be called before the state is read, and before it is changed.
   void Fetch();
   void MoveOut();
+  /// Of all that is not made of the model anew for each step.
+  void ExchangeState(StateArchive* state);
 
   // The nodes that are unknown.
   int first_free() const { return model.a.clamped() ? 1 : 0; }
@@ -76,7 +78,7 @@ struct Rod::Impl {
   void StiffenElements();
   /// Forces of the iterate, and their tangent, with the law in `w` and those of the section.
   void EvaluateStatics();
-  void AssembleStatics();
+  void AssembleStatics(bool exact);
   /// Sets the elements' offsets to what the section's laws make of the iterate's strains.
   void PlaceLawStress();
   /// Of an element of that iterate.
@@ -86,8 +88,9 @@ struct Rod::Impl {
   /// law, relative to the bending stiffness.
   double UpdateTensions();
   /// Minimises the energy of the rod with the law in `w` by moving its iterate, until a correction
-  /// is below `tolerance`.
-  SolveReport Minimise(double tolerance, int max_iterations, const Load* load);
+  /// is below `tolerance`; after `quick_iterations` with the exact tangent.
+  SolveReport Minimise(double tolerance, int max_iterations, int quick_iterations,
+                       const Load* load);
   /// Static equilibrium; `from_afar`: by way of rods that stretch more easily.
   SolveReport FindRest(EndPart::Memory memory, bool from_afar, const Load* given);
   /// At rest, with the static law; its iterate becomes the state once it is in equilibrium.
@@ -163,12 +166,12 @@ struct Rod::Impl {
   ElementStress StressIn(const StepChain<T>& chain, int entry, int lane, int element) const;
   double EndPower() const;
 
-  double dt_of_law_ = 0;                     // of the last step begun [s]
-  ElementLaw<double> law_of_step_;           // of that step
-  PrescribedMotion a_before_, b_before_;     // clamps at its start
-  double dissipation_rate_ = 0;              // of the sections [W], their laws left out:
-  double lost_in_step_ = 0;                  // what those have dissipated in the last step [J]
-  double lost_in_ends_ = 0;                  // likewise, the laws of the ends
+  double dt_of_law_ = 0;                  // of the last step begun [s]
+  ElementLaw<double> law_of_step_;        // of that step
+  PrescribedMotion a_before_, b_before_;  // clamps at its start
+  double dissipation_rate_ = 0;           // of the sections [W], their laws left out:
+  double lost_in_step_ = 0;               // what those have dissipated in the last step [J]
+  double lost_in_ends_ = 0;               // likewise, the laws of the ends
   bool has_history_ = false;
   EndPart::Memory memory_ = EndPart::Memory::kRested;  // of all laws in statics
   LoadSum acting_, acting_at_rest_;

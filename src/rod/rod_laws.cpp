@@ -1,6 +1,7 @@
 // Section laws that are not linear over a step, in statics.
 #include <limits>
 
+#include "exact_tangent.h"
 #include "rod_impl.h"
 #include "step_kernels.h"
 
@@ -31,8 +32,11 @@ void Rod::Impl::EvaluateStatics() {
   EvaluateForces(&w);
 }
 
-void Rod::Impl::AssembleStatics() {
-  AssembleTangent(0.0, &w);
+void Rod::Impl::AssembleStatics(bool exact) {
+  if (exact)
+    AssembleExactTangent(joints, stiffening, &w);
+  else
+    AssembleTangent(0.0, &w);
   if (laws.empty()) return;
   const int from = laws.answers_to_gamma() ? 0 : 3;
   for (int e = 0; e < model.elements; ++e) {

@@ -26,6 +26,9 @@ class SectionBranches {
   SectionBranches& operator=(SectionBranches&&) noexcept = default;
 
   bool empty() const { return branches_.empty(); }
+  void ExchangeState(StateArchive* state) {
+    for (auto& branch : branches_) branch->ExchangeState(state);
+  }
 
   void BeginStep(double dt) {
     for (auto& branch : branches_) branch->BeginStep(dt);

@@ -29,6 +29,9 @@ class SectionLaws {
   SectionLaws& operator=(SectionLaws&&) noexcept = default;
 
   bool empty() const { return laws_.empty(); }
+  void ExchangeState(StateArchive* state) {
+    for (auto& law : laws_) law->ExchangeState(state);
+  }
   bool answers_to_gamma() const { return answers_to_gamma_; }
 
   void Reset() {

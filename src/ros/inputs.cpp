@@ -236,6 +236,20 @@ std::vector<std::string> FilesRead(const InputPaths& paths, const Inputs& inputs
   return files;
 }
 
+VehicleModel LoadVehicleOf(const CableFile& cables, const std::string& path, Problems* problems) {
+  std::set<std::string> collision, visual;
+  for (const CableModel& cable : cables.cables) {
+    for (const std::string& link : cable.avoid)
+      (cable.avoid_visual.count(link) > 0 ? visual : collision).insert(link);
+  }
+  VehicleUse use;
+  use.visual_links = {visual.begin(), visual.end()};
+  use.moving_links = NeededLinks(cables.cables);
+  const std::string folder = std::filesystem::absolute(path).parent_path().string();
+  return LoadVehicle(path, {collision.begin(), collision.end()}, FindPackagesFrom(folder), problems,
+                     use);
+}
+
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems) {
   Inputs inputs;
   for (const std::string& problem : options.Check()) problems->Add("", problem);
@@ -244,18 +258,8 @@ Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problem
 
   Problems cable_problems;
   inputs.cables = LoadCableFile(paths.cables, &cable_problems, paths.sections);
-  std::set<std::string> collision, visual;
-  for (const CableModel& cable : inputs.cables.cables) {
-    for (const std::string& link : cable.avoid)
-      (cable.avoid_visual.count(link) > 0 ? visual : collision).insert(link);
-  }
-  VehicleUse use;
-  use.visual_links = {visual.begin(), visual.end()};
-  use.moving_links = NeededLinks(inputs.cables.cables);
   Problems vehicle_problems;
-  const std::string folder = std::filesystem::absolute(paths.vehicle).parent_path().string();
-  inputs.vehicle = LoadVehicle(paths.vehicle, {collision.begin(), collision.end()},
-                               FindPackagesFrom(folder), &vehicle_problems, use);
+  inputs.vehicle = LoadVehicleOf(inputs.cables, paths.vehicle, &vehicle_problems);
   if (!inputs.vehicle.links.empty()) {
     CheckAgainstVehicle(inputs.cables, inputs.vehicle.links, &cable_problems);
     CheckAvoidedLinks(inputs.cables, inputs.vehicle, paths.vehicle, &cable_problems);

@@ -127,6 +127,7 @@ ExitCode RunReplay(ReplayOptions options) {
   options.engine.links.judge = false;
   options.engine.known = inputs.survey->findings;
   options.engine.dump_directory = FolderOf(options.output).string();
+  options.engine.vehicle_file = fs::absolute(options.inputs.vehicle).string();
   if (!inputs.survey->world_is_recorded) {
     std::cerr << "no frame above the vehicle is recorded: its root '" << inputs.survey->world
               << "' is taken as inertial\n";

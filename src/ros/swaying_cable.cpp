@@ -10,7 +10,6 @@
 #include "cosserat_cable/ros/markers.h"
 #include "cosserat_cable/ros/telemetry.h"
 #include "diagnostics.h"
-#include "state_dump.h"
 
 namespace cosserat_cable {
 namespace {
@@ -67,7 +66,7 @@ void CableEngine::SwayingCable::Settle(const Instant& now, const std::string& wo
   Surround(now);
   const StepOutcome outcome = simulation_.Settle(surroundings_, Unstable::kFalls);
   if (!outcome.ok) {
-    Fail("no equilibrium at the start: " + outcome.message, now.time, world);
+    Fail(StateDump::Failed::kSettling, SettlingFailure(outcome), now.time, world);
     return;
   }
   if (!outcome.remark.empty()) {
@@ -87,10 +86,11 @@ const Surroundings* CableEngine::SwayingCable::Then(const Instant& then) {
 
 void CableEngine::SwayingCable::Take(const StepOutcome& outcome, const Instant& then,
                                      std::int64_t from, const std::string& world) {
+  dt_ = static_cast<double>(then.time - from) * 1e-9;
   summary_.iterations += static_cast<std::uint64_t>(outcome.iterations);
   if (outcome.substeps > 1) ++summary_.retried_steps;
   if (!outcome.ok) {
-    Fail(outcome.message, from, world);
+    Fail(StateDump::Failed::kStep, outcome.message, from, world);
     return;
   }
   ++summary_.steps;
@@ -103,18 +103,30 @@ bool CableEngine::SwayingCable::MaySettleAgain(std::int64_t time) const {
   return static_cast<double>(time - failed_at_) * 1e-9 >= wait;
 }
 
-void CableEngine::SwayingCable::Fail(const std::string& message, std::int64_t time,
-                                     const std::string& world) {
+void CableEngine::SwayingCable::Fail(StateDump::Failed failed, const std::string& message,
+                                     std::int64_t time, const std::string& world) {
   failed_ = true;
   failed_at_ = time;
   ++failures_;
   message_ = message;
   const std::string path =
       options_.dump_directory + "/" + model().name + "_" + std::to_string(time) + ".failed.yaml";
-  const bool dumped =
-      DumpState(path, simulation_, surroundings_, time, world, options_.gravity_W, message);
+  StateDump dump;
+  dump.failed = failed;
+  dump.message = message;
+  dump.cable.cables = {model()};
+  dump.stamp = time;
+  dump.world_frame = world;
+  dump.gravity_W = options_.gravity_W;
+  dump.vehicle_file = options_.vehicle_file;
+  dump.obstacles = frames_.obstacle_names;
+  dump.dt = dt_;
+  dump.then = surroundings_;
+  dump.state = simulation_.State();
+  dump.nodes = simulation_.nodes();
   summary_.failure =
-      message + (dumped ? "; state in " + path : "; its state could not be written to " + path);
+      message + (WriteStateDump(path, dump) ? "; state in " + path
+                                            : "; its state could not be written to " + path);
   news_.push_back("cable '" + model().name + "' stopped at " + StampText(time) + ": " +
                   summary_.failure);
 }
@@ -153,7 +165,7 @@ void CableEngine::SwayingCable::JudgeDepth(std::int64_t time) {
 void CableEngine::SwayingCable::Tell(const Instant& now, const std::string& world) {
   if (now.telemetry) JudgeClamps(now);
   if (now.telemetry && !failed_ && !TellTelemetry(now))
-    Fail("its state is not finite", now.time, world);
+    Fail(StateDump::Failed::kState, kNotFinite, now.time, world);
   if (!now.markers) return;
   if (!failed_) {
     told_.push_back({now.time, index_,

@@ -12,6 +12,7 @@
 #include "cosserat_cable/ros/apex_history.h"
 #include "cosserat_cable/ros/cable_engine.h"
 #include "cosserat_cable/vehicle/clamp_judge.h"
+#include "state_dump.h"
 
 namespace cosserat_cable {
 
@@ -78,7 +79,8 @@ class CableEngine::SwayingCable {
   void Record(const Instant& now);
   void JudgeDepth(std::int64_t time);
   std::string TooDeep() const;
-  void Fail(const std::string& message, std::int64_t time, const std::string& world);
+  void Fail(StateDump::Failed failed, const std::string& message, std::int64_t time,
+            const std::string& world);
   bool TellTelemetry(const Instant& now);
   void JudgeElements(double tension, double curvature);
   visualization_msgs::MarkerArray InRecordedFrame(visualization_msgs::MarkerArray markers) const;
@@ -94,6 +96,7 @@ class CableEngine::SwayingCable {
   bool failed_ = false;
   std::int64_t failed_at_ = 0;  // [ns]
   int failures_ = 0;
+  double dt_ = 0;       // of the last step [s]
   bool shown_ = false;  // its markers are in the picture
   std::string message_;
   std::uint64_t held_ = 0;  // telemetry samples

@@ -1,5 +1,6 @@
 // What holds for every extension of a cable: it reads back what it writes, changes no bit where its
-// amplitude is zero, keeps the energy's account, and leaves its neighbours in a batch alone.
+// amplitude is zero, keeps the energy's account, leaves its neighbours in a batch alone, and goes
+// on from a state that was written.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -174,6 +175,20 @@ TEST_P(ExtensionSuite, LeavesItsNeighboursAlone) {
     return rod::Rod(rods[2]);
   };
   ExpectSameBits(run(with), run(plain));
+}
+
+// The internal variables of its laws are in it.
+TEST_P(ExtensionSuite, GoesOnFromItsState) {
+  constexpr int kWritten = 40, kEnd = 80;
+  rod::Rod first = Settled(Model()), second(Model());
+  for (int step = 1; step <= kWritten; ++step)
+    ASSERT_TRUE(first.Step(kDt, kA, Shaken(step)).converged);
+  second.SetState(first.State());
+  for (int step = kWritten + 1; step <= kEnd; ++step) {
+    ASSERT_TRUE(first.Step(kDt, kA, Shaken(step)).converged);
+    ASSERT_TRUE(second.Step(kDt, kA, Shaken(step)).converged);
+  }
+  ExpectSameBits(first, second);
 }
 
 TEST_P(ExtensionSuite, HasTangentsThatAreItsStressesDerivatives) {

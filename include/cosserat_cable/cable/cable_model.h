@@ -8,6 +8,7 @@
 #include "cosserat_cable/cable/cable_extension.h"
 #include "cosserat_cable/contact/contact_law.h"
 #include "cosserat_cable/input/problems.h"
+#include "cosserat_cable/input/yaml_value.h"
 #include "cosserat_cable/math/pose.h"
 
 namespace cosserat_cable {
@@ -85,6 +86,9 @@ struct CableFile {
 /// them, of a vehicle's cables.
 CableFile LoadCableFile(const std::string& path, Problems* problems,
                         const std::vector<std::string>& sections = {});
+
+/// The same of a cable file that is a value in another one.
+CableFile ReadCableFile(const YamlValue& root, Problems* problems);
 
 /// The effective configuration: a whole cable file with every default filled in and types spelt
 /// out. It reads back to the same models, bit for bit.

@@ -96,6 +96,13 @@ class CableSimulation {
   /// load and with the section of `then`. On failure the state stays the last good one.
   StepOutcome Step(double dt, const Surroundings& then);
 
+  /// All that changes in time, in numbers that mean nothing outside: with them in SetState, a
+  /// simulation of the same model, bodies and gravity takes the same steps, to the last bit.
+  std::vector<double> State() const;
+  /// @throws std::invalid_argument where they are not those of such a simulation; it has to settle,
+  /// or to take another state, before it goes on
+  void SetState(const std::vector<double>& state);
+
   const CableModel& model() const;
   const rod::Rod& rod() const;
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cosserat_cable/contact/body.h"
+#include "cosserat_cable/math/state_archive.h"
 
 namespace cosserat_cable {
 
@@ -47,6 +48,10 @@ class ContactTracker {
   /// @pre 0 < radius, 0 <= margin, radius + margin < reach
   TrackedClearance Look(const Body& body, const Eigen::Vector3d& p_B, double radius, double margin,
                         double reach) const;
+
+  void ExchangeState(StateArchive* state) {
+    state->Exchange(&known_, &has_side_, &distance_, &at_most_, &p_B_, &nearest_, &normal_);
+  }
 
   /// Remembers that the point is at `p_B` [m], where Look with the same radius gave `seen`.
   void Accept(const Eigen::Vector3d& p_B, const TrackedClearance& seen);

@@ -26,6 +26,7 @@ class BendingFriction : public SectionLaw {
   /// `stiffness` k while all stick [N m^2], `slip_curvature` c > 0 [1/m], `spread` w in [0, 1].
   BendingFriction(double stiffness, double slip_curvature, double spread);
 
+  void ExchangeState(StateArchive* state) override { state->Exchange(&sprung_, &kappa_); }
   std::unique_ptr<SectionLaw> Clone() const override {
     return std::make_unique<BendingFriction>(*this);
   }

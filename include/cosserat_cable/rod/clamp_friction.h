@@ -26,6 +26,7 @@ class ClampFriction final : public EndLaw {
       : stuck_(stuck), slip_moment_(slip_moment), about_(about) {}
 
   std::unique_ptr<EndLaw> Clone() const override;
+  void ExchangeState(StateArchive* state) override { state->Exchange(&slip_); }
   Resistance Resist(const Eigen::Vector3d& psi, const Eigen::Vector3d& rate) const override;
   double Potential(const Eigen::Vector3d& psi) const override;
   double Commit(const Eigen::Vector3d& psi) override;

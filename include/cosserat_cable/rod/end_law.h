@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "cosserat_cable/math/state_archive.h"
+
 namespace cosserat_cable::rod {
 
 /// A moment against the rotation of the end's section in its clamp, as a function of the rotation
@@ -33,6 +35,8 @@ class EndLaw {
 
   virtual ~EndLaw() = default;
   virtual std::unique_ptr<EndLaw> Clone() const = 0;
+  /// Of all internal variables, where it has any.
+  virtual void ExchangeState(StateArchive* /*state*/) {}
 
   /// Where a step ends at `psi`, turning with `rate`.
   virtual Resistance Resist(const Eigen::Vector3d& psi, const Eigen::Vector3d& rate) const = 0;

@@ -17,6 +17,7 @@ class MaxwellBranch : public SectionBranch {
   MaxwellBranch(const SectionValue& stiffness, double tau);
 
   std::unique_ptr<SectionBranch> Clone() const override;
+  void ExchangeState(StateArchive* state) override;
   void SetElements(int elements) override;
   void BeginStep(double dt) override;
   SectionValue StepStiffness() const override;

@@ -119,6 +119,12 @@ class Rod : public Centreline {
   /// first one after SetConfiguration has no past: it is as of Equilibrate.
   SolveReport EquilibrateWithHistory(const Load* load = nullptr);
 
+  /// All that changes in time, in numbers that mean nothing outside: with them in SetState, a rod of
+  /// the same model takes the same steps, to the last bit.
+  std::vector<double> State() const;
+  /// @throws std::invalid_argument where they are not those of a rod of the same model
+  void SetState(const std::vector<double>& state);
+
   /// Advances by `dt` [s] to clamps at `a` and `b`. Their velocities are those that the time scheme
   /// makes of their poses, so that a rigid motion strains nothing. Where it does not converge the
   /// state is left as it was.

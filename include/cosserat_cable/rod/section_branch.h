@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "cosserat_cable/math/state_archive.h"
+
 namespace cosserat_cable::rod {
 
 /// Strains of an element and their rates, along or about the section's axes: force strain Gamma [1]
@@ -36,6 +38,8 @@ class SectionBranch {
  public:
   virtual ~SectionBranch() = default;
   virtual std::unique_ptr<SectionBranch> Clone() const = 0;
+  /// Of all internal variables; of what BeginStep sets, nothing.
+  virtual void ExchangeState(StateArchive* state) = 0;
 
   /// Makes room for the internal variables.
   virtual void SetElements(int elements) = 0;

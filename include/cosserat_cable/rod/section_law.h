@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "cosserat_cable/math/state_archive.h"
 #include "cosserat_cable/rod/section_branch.h"
 
 namespace cosserat_cable::rod {
@@ -29,6 +30,8 @@ class SectionLaw {
  public:
   virtual ~SectionLaw() = default;
   virtual std::unique_ptr<SectionLaw> Clone() const = 0;
+  /// Of all internal variables, where it has any; of what BeginStep sets, nothing.
+  virtual void ExchangeState(StateArchive* /*state*/) {}
 
   /// Whether it acts on or follows the force strains; a law of the curvatures alone costs less.
   virtual bool answers_to_gamma() const { return false; }

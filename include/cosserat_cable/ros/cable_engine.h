@@ -37,6 +37,7 @@ struct EngineOptions {
   double clearance_reach = 0.05;             ///< bodies farther away count as none [m]
   MarkerStyle markers;
   std::string dump_directory = ".";  ///< where a failed cable's state is written
+  std::string vehicle_file;  ///< the URDF, for who reads that state; empty where it is no file
   /// After so long a cable that has failed settles anew, and after twice as long each time that it
   /// fails again [s]; 0: it stays as it is, until time or frames jump.
   double settle_again = 0;

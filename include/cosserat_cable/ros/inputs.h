@@ -62,6 +62,9 @@ struct Inputs {
 /// The options that name topics, frames or gravity, as they were given: " --gravity 0,0,9.81".
 std::string SharedOptionsText(const EngineOptions& options);
 
+/// The vehicle, with what its cables need of it.
+VehicleModel LoadVehicleOf(const CableFile& cables, const std::string& path, Problems* problems);
+
 /// Reads and checks it all. Where `problems` grew, the result serves for nothing but telling more.
 Inputs LoadInputs(const InputPaths& paths, const EngineOptions& options, Problems* problems);
 
