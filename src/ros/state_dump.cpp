@@ -128,7 +128,6 @@ StateDump ReadStateDump(const std::string& path, Problems* problems) {
   const std::string failed = map.Required("failed").OneOf(kFailed).value_or("step");
   for (std::size_t i = 0; i < kFailed.size(); ++i)
     if (failed == kFailed[i]) dump.failed = static_cast<StateDump::Failed>(i);
-  constexpr double kLatest = static_cast<double>(std::numeric_limits<std::int64_t>::max());
   const NumberSpec stamps = NumberSpec::AtLeast(0, "ns").AtMost(9e18);  // fits into 64 bits
   dump.stamp = static_cast<std::int64_t>(map.Required("stamp_ns").Number(stamps).value_or(0));
   dump.world_frame = map.Required("world_frame").Text().value_or("");
