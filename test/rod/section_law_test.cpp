@@ -113,6 +113,7 @@ class ElasticBranch : public SectionBranch {
   std::unique_ptr<SectionBranch> Clone() const override {
     return std::make_unique<ElasticBranch>(*this);
   }
+  void ExchangeState(StateArchive*) override {}
   void SetElements(int) override {}
   void BeginStep(double) override {}
   SectionValue StepStiffness() const override { return stiffness_; }
