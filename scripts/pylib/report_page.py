@@ -99,6 +99,7 @@ class Pages:
     def __init__(self, pdf, plt):
         self.pdf, self.plt = pdf, plt
         self.page, self.y = None, 0
+        self.drawn = None, None  # a figure, and what picture() makes of it
 
     def flush(self):
         if self.page is not None:
@@ -150,13 +151,16 @@ class Pages:
         self.paragraph(item.caption, color='0.35')
 
     def picture(self, figure):
-        """A figure as an image, and its height on a page as wide as the text."""
-        file = io.BytesIO()
-        figure.savefig(file, format='png', dpi=DPI, bbox_inches='tight')
-        file.seek(0)
-        image = self.plt.imread(file)
-        height = (1 - 2 * MARGIN) * PAGE[0] / PAGE[1] * image.shape[0] / image.shape[1]
-        return image, min(height, TALLEST)
+        """A figure as an image, and its height on a page as wide as the text; once for each, though
+        the heading above asks as well."""
+        if self.drawn[0] is not figure:
+            file = io.BytesIO()
+            figure.savefig(file, format='png', dpi=DPI, bbox_inches='tight')
+            file.seek(0)
+            image = self.plt.imread(file)
+            height = (1 - 2 * MARGIN) * PAGE[0] / PAGE[1] * image.shape[0] / image.shape[1]
+            self.drawn = figure, (image, min(height, TALLEST))
+        return self.drawn[1]
 
     def add(self, item, after=None):
         """`after`: what a heading is above, and is not to be parted from."""

@@ -157,12 +157,13 @@ class Court {
     }
     if (!Beats(r, 0)) {
       const Difference gained = difference_(0, r);
-      const bool chance =
-          !(gained.value > Needed(0, r)) || IsMaterial(gained) || !plain.adequacy.adequate;
-      reason = chance ? "it improves the fit by no more than chance does"
-                      : "what it improves is " + FormatRounded(100 * gained.most_per_sample, 2) +
-                            " % of the noise's variance at most in any record: too little to tell "
-                            "from what a simulation is wrong by";
+      const bool is_small =
+          gained.value > Needed(0, r) && plain.adequacy.adequate && !IsMaterial(gained);
+      reason = !is_small
+                   ? "it improves the fit by no more than chance does"
+                   : "what it improves is " + FormatRounded(100 * gained.most_per_sample, 2) +
+                         " % of the noise's variance at most in any record: too little to tell "
+                         "from what a simulation is wrong by";
       return;
     }
     if (rival.faint) {

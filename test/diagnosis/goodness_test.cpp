@@ -98,6 +98,15 @@ TEST(DifferenceTest, AStretchHasALargeError) {
   EXPECT_NEAR(one.se, 10, 1e-9);  // one of eight blocks has it all
 }
 
+TEST(DifferenceTest, WhatOneShortRecordGainsIsNotLostInTheOthers) {
+  const Records better = {Eigen::MatrixXd::Zero(800, 2), Eigen::MatrixXd::Zero(11, 1)};
+  Records worse = better;
+  worse[1].setConstant(2);
+  const Correlations white = {Eigen::VectorXd::Ones(2), Eigen::VectorXd::Ones(1)};
+  EXPECT_DOUBLE_EQ(DifferenceOf(worse, better, white).most_per_sample, 4);
+  EXPECT_DOUBLE_EQ(DifferenceOf(better, worse, white).most_per_sample, 0);
+}
+
 TEST(GainTest, IsThePartOfTheMisfitThatIsGone) {
   // Misfits of 3 and 1 times the noise, independent of it: gain (9 - 1)/9.
   constexpr double kTolerance = 0.03;  // the noise's own chance in 4000 samples
