@@ -9,7 +9,7 @@ import diagnosis_figures as figures
 import diagnosis_set
 import record_signals as signals
 import report_cost
-from report_numbers import NORMAL_95, number, percent, unit_of
+from report_numbers import NORMAL_95, number, percent, rounded, unit_of
 from report_page import Bullets, Figure, Folded, Heading, Table, Text
 
 MOST_LATE = 5  # causes that are told by name where the time budget was spent
@@ -156,9 +156,9 @@ def proof_items(records):
     column = record.worst()
     after = record.times_noise(column, extended=True)
     text = (f'{record.name} / {column}: where the plain model is off most, by '
-            f'{record.times_noise(column):.3g} times the noise')
+            f'{rounded(record.times_noise(column))} times the noise')
     if record.has_extended:
-        text += f'; {record.extended_label} leaves {after:.3g} times'
+        text += f'; {record.extended_label} leaves {rounded(after)} times'
     return [Figure(figures.proof(record, column), text + '. Above: the record and the simulations. '
                    'Below: what they leave of it, in units of the noise; grey is where 95 % of '
                    'the noise lies.')]
@@ -274,7 +274,8 @@ def candidate_items(data):
             best = not worse[0] and not worse[1]
             rows.append([c['cause'], '-' if c.get('share') is None else percent(c['share']),
                          number(times_noise(c)), bounded_gain(c.get('gain')),
-                         'best' if best else f'{worse[0]:.3g} ± {worse[1]:.2g}', why_not(c, data)])
+                         'best' if best else f'{rounded(worse[0])} ± {rounded(worse[1], 2)}',
+                         why_not(c, data)])
         items.append(Table(['cause', 'share explained', 'times noise left', 'gain, held out *',
                             'worse than the best **', 'why not'], rows, ''))
         items.append(Text('* On records left out one at a time, linearised; it names nothing by '
@@ -301,7 +302,7 @@ def parameter_items(data):
     def told(model, name):
         value = (model.get('parameters') or {}).get(name)
         if value:
-            return f'{number(*value)} ± {NORMAL_95 * value[1]:.2g}'
+            return f'{number(*value)} ± {rounded(NORMAL_95 * value[1], 2)}'
         reason = (model.get('undetermined') or {}).get(name)
         return f'undetermined: {reason}' if reason else '-'
 

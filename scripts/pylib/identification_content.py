@@ -2,7 +2,7 @@
 
 import identification_figures as figures
 import report_cost
-from report_numbers import NORMAL_95, number, percent, unit_of
+from report_numbers import NORMAL_95, number, percent, rounded, unit_of
 from report_page import Bullets, Figure, Heading, Table, Text
 
 # Residual over noise from which on a channel is said not to be explained.
@@ -54,7 +54,7 @@ def verdict(data, intervals):
         if estimate is not None:
             share = half_width(name, data, intervals)
             known.append(f'{name} to ±{percent(share)}' if share is not None
-                         else f'{name} as zero within ±{NORMAL_95 * estimate[1]:.2g}')
+                         else f'{name} as zero within ±{rounded(NORMAL_95 * estimate[1], 2)}')
     text = ('The data determine ' + ', '.join(known) + ' (95 %).' if known
             else 'The data determine no parameter.')
     if unknown:
@@ -213,23 +213,23 @@ def direct_items(data, intervals):
     combined = direct.get('combination')
     if combined:
         items.append(Text(f"{combined['text']} = {number(combined['value'], combined['sd'])} ± "
-                          f"{combined['sd']:.2g} {combined['unit']} at L = {combined['length']:g} m: "
-                          'one length determines no more.', ''))
+                          f"{rounded(combined['sd'], 2)} {combined['unit']} at L = "
+                          f"{combined['length']:g} m: one length determines no more.", ''))
     lengths = figures.torsion_lengths(data)
     if lengths:
         items.append(Figure(lengths, 'Torsional damping over 1/L: the slope is eta_GJ, the intercept '
                             'the loss at the fixation D_E. Shaded: 95 % confidence.'))
     biases = [[ring['experiment'], bias['of'],
                ('order of ' if bias.get('order_only') else '')
-               + (f"{100 * bias['relative']:.2g} %" if bias.get('order_only')
+               + (f"{rounded(100 * bias['relative'], 2)} %" if bias.get('order_only')
                   else f"{100 * bias['relative']:+.2g} %"), bias['text']]
               for ring in rings for bias in ring.get('biases', [])]
     if biases:
         items.append(Table(['experiment', 'of', 'too high by', 'known bias'], biases, ''))
     rows = [[ring['experiment'], ring.get('plane', 'torsion'), ', '.join(ring['channels']),
-             f"{number(*ring['omega'])} ± {ring['omega'][1]:.2g}",
-             f"{number(*ring['delta'])} ± {ring['delta'][1]:.2g}",
-             f"{ring['delta'][0] / ring['undamped']:.3g}"]
+             f"{number(*ring['omega'])} ± {rounded(ring['omega'][1], 2)}",
+             f"{number(*ring['delta'])} ± {rounded(ring['delta'][1], 2)}",
+             f"{rounded(ring['delta'][0] / ring['undamped'])}"]
             for ring in rings if 'refused' not in ring]
     if rows:
         items.append(Table(['experiment', 'motion', 'channels', 'Omega [rad/s]', 'delta [1/s]',
@@ -282,8 +282,8 @@ def content(data, records):
     items = [Heading('Identification: ' + data.get('set', ''), 1), verdict(data, intervals)]
     if data.get('slips'):
         items.append(Bullets([f"{slip['experiment']}: {slip['text']}{stop(slip['text'])} It would leave "
-                              f"{slip['misfit_with']:.2g} times the noise instead of "
-                              f"{slip['misfit']:.2g}." for slip in data['slips']], 'warning'))
+                              f"{rounded(slip['misfit_with'], 2)} times the noise instead of "
+                              f"{rounded(slip['misfit'], 2)}." for slip in data['slips']], 'warning'))
     if data.get('warnings'):
         items.append(Bullets(data['warnings'], 'warning'))
     items += [Heading('Parameters', 2), parameter_table(data, intervals), *combinations(data)]

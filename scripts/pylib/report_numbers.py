@@ -21,6 +21,14 @@ def number(value, sd=0.0):
     return f'{value:#.{digits}g}'.rstrip('.') if sd else f'{value:.{digits}g}'
 
 
+def rounded(value, digits=3):
+    """To so many significant digits: without an exponent from 1e-4 to below 1e6."""
+    text = f'{value:.{digits}g}'
+    if 'e+' in text and abs(float(text)) < 1e6:
+        return f'{float(text):.0f}'
+    return text
+
+
 def percent(share):
     return f'{100 * share:.2g} %' if abs(share) < 0.1 else f'{100 * share:.0f} %'
 

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cosserat_cable/input/number_text.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -50,21 +52,21 @@ std::vector<Unit> UnitsOf(Quantity quantity) {
 std::string WithUnit(Quantity quantity, double value) {
   switch (quantity) {
     case Quantity::kPosition:
-      return std::abs(value) < 1e-3  ? Formatted("%.2g", 1e3 * value) + " mm"
+      return std::abs(value) < 1e-3  ? FormatRounded(1e3 * value, 2) + " mm"
              : std::abs(value) < 0.1 ? Formatted("%.1f", 1e3 * value) + " mm"
-                                     : Formatted("%.4g", value) + " m";
+                                     : FormatRounded(value, 4) + " m";
     case Quantity::kVelocity:
-      return Formatted("%.3g", value) + " m/s";
+      return FormatRounded(value) + " m/s";
     case Quantity::kAcceleration:
-      return Formatted("%.3g", value) + " m/s^2";
+      return FormatRounded(value) + " m/s^2";
     case Quantity::kAngle:
-      return Formatted("%.3g", value) + " rad";
+      return FormatRounded(value) + " rad";
     case Quantity::kRate:
-      return Formatted("%.3g", value) + " rad/s";
+      return FormatRounded(value) + " rad/s";
     case Quantity::kForce:
-      return Formatted("%.3g", value) + " N";
+      return FormatRounded(value) + " N";
     case Quantity::kMoment:
-      return Formatted("%.3g", value) + " N m";
+      return FormatRounded(value) + " N m";
   }
   return "";
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <iomanip>
 #include <limits>
 #include <locale>
 #include <set>
@@ -75,7 +76,18 @@ std::string FormatRounded(double value, int digits) {
   stream.imbue(std::locale::classic());
   stream.precision(digits);
   stream << value;
+  const std::string text = stream.str();
+  const std::size_t exponent = text.find("e+0");
+  if (exponent == std::string::npos || text[exponent + 3] >= '6') return text;
+  stream.str("");
+  stream << std::fixed << std::setprecision(0) << ParseNumber(text).value;
   return stream.str();
+}
+
+std::string FormatLength(double metres, int digits) {
+  const double rounded = ParseNumber(FormatRounded(metres, digits)).value;
+  return std::abs(rounded) < 1 ? FormatRounded(1e3 * metres, digits) + " mm"
+                               : FormatRounded(metres, digits) + " m";
 }
 
 std::string FormatNumber(double value) {

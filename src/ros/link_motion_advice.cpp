@@ -3,6 +3,7 @@
 #include <limits>
 #include <tuple>
 
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/input/problems.h"
 #include "cosserat_cable/ros/conversions.h"
 #include "cosserat_cable/ros/link_motion.h"
@@ -168,7 +169,7 @@ void LinkMotion::AddClockFindings(const std::set<std::string>& above, Findings* 
     finding.topic = ToString(source);
     finding.subject = SubjectOf(children);
     if (children.size() == judged[source]) finding.subject = finding.topic;
-    finding.what = "is stamped " + Printed("%.3g s ", std::abs(delay)) +
+    finding.what = "is stamped " + FormatRounded(std::abs(delay)) + " s " +
                    (delay > 0 ? "behind" : "ahead of") +
                    " the other topics, by the times at which both were recorded";
     finding.remedy =
@@ -211,7 +212,7 @@ void LinkMotion::AddDriftFindings(const std::set<std::string>& above, Findings* 
     Finding finding;
     finding.kind = "clock_drifts";
     finding.subject = finding.topic = ToString(source);
-    finding.what = "is stamped " + Printed("%.3g s ", std::abs(seconds)) +
+    finding.what = "is stamped " + FormatRounded(std::abs(seconds)) + " s " +
                    (seconds > 0 ? "farther behind" : "farther ahead of") +
                    " the other topics at its end than at its begin, by the times of recording";
     finding.remedy =
@@ -250,7 +251,7 @@ void LinkMotion::AddSetClockFindings(const std::set<std::string>& above, Finding
       finding.unit = "s";
       finding.what =
           std::string("has stamps that ") + (back ? "go back" : "leap ahead") + " by " +
-          Printed("%.3g s", finding.size) +
+          FormatRounded(finding.size) + " s" +
           (finding.count > 1 ? " and less, " + std::to_string(finding.count) + " times" : "") +
           (back ? ": that time is there twice, its second samples are left out, and the "
                   "pose leaps behind them"
@@ -284,13 +285,13 @@ void LinkMotion::AddGapFindings(const std::set<std::string>& above, Findings* fi
     finding.size = ToSeconds(edge.longest_gap);
     finding.limit = options_.max_gap;
     finding.unit = "s";
-    finding.what = edge.gaps == 1 ? "has a gap of " + Printed("%.3g s", finding.size)
+    finding.what = edge.gaps == 1 ? "has a gap of " + FormatRounded(finding.size) + " s"
                                   : "has " + std::to_string(edge.gaps) + " gaps, of up to " +
-                                        Printed("%.3g s", finding.size);
+                                        FormatRounded(finding.size) + " s";
     const double recorded = ToSeconds(edge.longest_gap_recorded);
     if (edge.longest_gap_recorded > 0 && recorded < finding.size / 2) {
       finding.kind = "clock_jump";
-      finding.what += " between stamps, recorded within " + Printed("%.3g s", recorded);
+      finding.what += " between stamps, recorded within " + FormatRounded(recorded) + " s";
       finding.remedy = "was a clock set? " + UseRecordTimes();
     } else {
       finding.remedy =
@@ -432,7 +433,7 @@ Findings LinkMotion::CoverageFindings(const std::string& world, bool* nothing) c
     });
     if (shifted != alike.end()) {
       const double shift = ToSeconds(shifted->first.second.first - edge.first);
-      finding.remedy = "it begins and ends " + Printed("%.3g s ", std::abs(shift)) +
+      finding.remedy = "it begins and ends " + FormatRounded(std::abs(shift)) + " s " +
                        (shift > 0 ? "before " : "after ") + SubjectOf(shifted->second) + " (" +
                        ToString(shifted->first.first) +
                        ") does: are these stamps of two clocks? set them by one another, or " +

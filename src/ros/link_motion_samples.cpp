@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/ros/conversions.h"
 #include "cosserat_cable/ros/link_motion.h"
 
@@ -47,7 +48,7 @@ std::string BadTransform(const geometry_msgs::Transform& transform) {
   if (!std::isfinite(t.x) || !std::isfinite(t.y) || !std::isfinite(t.z))
     return ", its translation is not finite";
   if (!std::isfinite(length)) return ", its quaternion is not finite";
-  return ", its quaternion has the length " + Printed("%.3g", length);
+  return ", its quaternion has the length " + FormatRounded(length);
 }
 
 }  // namespace
@@ -225,7 +226,7 @@ void LinkMotion::JumpForward(const std::string& child, const Sample& sample) {
   event.size = static_cast<double>(sample.stamp - newest_followed_) * 1e-9;
   event.unit = "s";
   Clear();
-  clear_reason_ = "time jumped forward by " + Printed("%.3g s", event.size);
+  clear_reason_ = "time jumped forward by " + FormatRounded(event.size) + " s";
   warnings_.Count("time jumped forward", event);
   has_epoch_ = true;
   epoch_ = sample.stamp;
@@ -497,7 +498,7 @@ void LinkMotion::Ingest(const sensor_msgs::JointState& message, const std::strin
           "joint position not finite",
           Event("'" + named_[i] + "'",
                 "'" + named_[i] + "' by " + ToString(Source::kJointStates) + ", " +
-                    Printed("%.3g", position),
+                    FormatRounded(position),
                 "it is left out: leave joints whose position is not known out of the message"));
     } else if (joint->type != JointModel::Type::kFloating &&
                joint->type != JointModel::Type::kFixed && joint->mimic.empty()) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/ros/conversions.h"
 #include "cosserat_cable/ros/link_motion.h"
 
@@ -170,8 +171,8 @@ void LinkMotion::CountContradiction(const Edge& edge, const std::string& child, 
   const std::string kept = ToString(edge.source);
   std::string detail = kept + " is kept, " + ToString(source) + " is ignored";
   if (is_fixed) {
-    detail += "; it is " + Printed("%.3g mm", 1e3 * translation) + " and " +
-              Printed("%.3g deg", rotation * 180 / M_PI) + " off";
+    detail += "; it is " + FormatLength(translation) + " and " +
+              FormatRounded(rotation * 180 / M_PI) + " deg off";
   }
   std::string remedy = "publish it as fixed or as moving, not as both";
   if (edge.source == Source::kUrdf) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/vehicle/finding.h"
 
 namespace cosserat_cable {
@@ -45,7 +46,7 @@ std::string Warnings::Sentence(const std::string& kind, std::int64_t start) cons
   if (!known.first.detail.empty()) text += " (first: " + known.first.detail + ")";
   if (known.first.stamp != 0) text += ", at " + StampText(known.first.stamp, start);
   if (known.largest != 0) {
-    text += ", by up to " + Printed("%.3g ", known.largest) + known.first.unit;
+    text += ", by up to " + FormatRounded(known.largest) + " " + known.first.unit;
     if (known.largest_at != known.first.stamp) text += " at " + StampText(known.largest_at, start);
   }
   if (known.subjects.size() > 1) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/input/number_text.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -68,7 +70,7 @@ Findings AttitudeJudge::Report(const std::string& subject, const std::string& to
   finding.kind = "degrees";
   finding.subject = subject;
   finding.topic = topic;
-  finding.what = "turns at up to " + Printed("%.3g rad/s", fastest_);
+  finding.what = "turns at up to " + FormatRounded(fastest_) + " rad/s";
   if (swings || tips)
     finding.what += ", and tips from " + Printed("%.0f", least_ * 180 / M_PI) + " to " +
                     Printed("%.0f deg", most_ * 180 / M_PI) +

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "cosserat_cable/input/number_text.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -63,8 +65,8 @@ Finding BurstJudge::Report() const {
   finding.unit = "s";
   finding.what = "comes in " + std::to_string(bursts_) + " bursts, of some " +
                  std::to_string((in_bursts_ + bursts_ / 2) / bursts_) + " samples stamped within " +
-                 Printed("%.3g ms", 1e3 * Seconds(longest_)) + ", with " +
-                 Printed("%.3g s", finding.size) +
+                 FormatRounded(1e3 * Seconds(longest_)) + " ms, with " +
+                 FormatRounded(finding.size) + " s" +
                  " between: these are times of sending, and all but the first of each burst are "
                  "too close together to count";
   finding.remedy = "stamp poses when they are measured, not when they are sent";

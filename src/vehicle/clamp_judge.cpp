@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "cosserat_cable/input/number_text.h"
 #include "unwound.h"
 
 namespace cosserat_cable {
@@ -85,7 +86,7 @@ Findings ClampJudge::Report() const {
   if (too_turned_ > 0) {
     finding.kind = "clamps_turned";
     finding.what = "has its clamps turned against each other by up to " +
-                   Printed("%.3g turns", range_.turn / (2 * M_PI)) + " from how they were first";
+                   FormatRounded(range_.turn / (2 * M_PI)) + " turns from how they were first";
     finding.remedy = "does a clamp belong on a link that does not spin?";
     finding.count = too_turned_;
     finding.first = first_too_turned_;

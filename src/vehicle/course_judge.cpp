@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cosserat_cable/input/number_text.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -49,8 +51,8 @@ void CourseJudge::Report(Findings* findings) const {
   finding.size = fastest_;
   finding.limit = limits_.speed;
   finding.unit = "m/s";
-  finding.what = "moves at up to " + Printed("%.3g m/s", fastest_) + " and accelerates by " +
-                 Printed("%.3g m/s^2", hardest_) + ", over tenths of a second: no vehicle does";
+  finding.what = "moves at up to " + FormatRounded(fastest_) + " m/s and accelerates by " +
+                 FormatRounded(hardest_) + " m/s^2, over tenths of a second: no vehicle does";
   finding.remedy = "are these millimetres or centimetres? publish metres";
   findings->push_back(std::move(finding));
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/input/number_text.h"
 #include "edge_judge_impl.h"
 
 namespace cosserat_cable {
@@ -58,7 +59,7 @@ Finding EdgeJudge::Corrections(const std::string& subject, const std::string& to
     finding.what =
         (slides.count == 1 ? std::string("slides by ")
                            : "slides " + std::to_string(slides.count) + " times, by up to ") +
-        impl_->SizeText(channel, slides.size) + " within " + Printed("%.2g s", slides.duration) +
+        impl_->SizeText(channel, slides.size) + " within " + FormatRounded(slides.duration, 2) + " s" +
         ", and rests otherwise";
   }
   finding.limit = channel->limits().jump;
@@ -149,7 +150,7 @@ void EdgeJudge::Impl::ReportJump(const MotionChannel* channel, Finding finding, 
                      ? "jumps by " + size
                      : "jumps " + std::to_string(finding.count) + " times, by up to " + size;
   finding.what +=
-      " from one sample to the next (" + Printed("%.3g ", acceleration) + finding.unit + "/s^2)";
+      " from one sample to the next (" + FormatRounded(acceleration) + " " + finding.unit + "/s^2)";
   finding.remedy =
       role == EdgeRole::kJoint
           ? "was its encoder reset, or are these outliers? cut the recording there (--start, "
@@ -171,7 +172,7 @@ void EdgeJudge::Impl::ReportOutliers(Findings* findings) const {
   finding.what = finding.count == 1 ? "jumps by " + size + " and back at once"
                                     : "jumps " + std::to_string(finding.count) +
                                           " times and back at once, by up to " + size;
-  finding.what += " (" + Printed("%.3g ", outliers.acceleration) + finding.unit +
+  finding.what += " (" + FormatRounded(outliers.acceleration) + " " + finding.unit +
                   "/s^2; the motion around it explains " + SizeText(channel, outliers.usual) + ")";
   finding.remedy =
       "is this an outlier of what measured it? take such samples out of the recording: a link does "
@@ -218,7 +219,7 @@ void EdgeJudge::Impl::ReportStamps(Findings* findings) const {
   finding.what = finding.count == 1
                      ? "has a sample with a bad stamp"
                      : "has " + std::to_string(finding.count) + " samples with bad stamps";
-  finding.what += ", " + Printed("%.3g ms too ", 1e3 * std::abs(stamps.lateness)) +
+  finding.what += ", " + FormatRounded(1e3 * std::abs(stamps.lateness)) + " ms too " +
                   (stamps.lateness > 0 ? "late" : "early") + ": it is " +
                   SizeText(channel, stamps.size) + " off there, and on its way at an even time";
   finding.remedy = "stamp poses when they are measured, or take such samples out of the recording";
@@ -238,7 +239,7 @@ void EdgeJudge::Impl::ReportAccelerations(Findings* findings) const {
   Finding finding = Start("acceleration", channel->accelerations());
   finding.limit = channel->limits().acceleration;
   finding.unit = Unit(channel) + std::string("/s^2");
-  finding.what = "accelerates by up to " + Printed("%.3g ", finding.size) + finding.unit +
+  finding.what = "accelerates by up to " + FormatRounded(finding.size) + " " + finding.unit +
                  " between samples (" + std::to_string(finding.count) + " times more than " +
                  Printed("%g)", finding.limit);
   finding.remedy =
@@ -255,11 +256,11 @@ void EdgeJudge::Impl::ReportLateness(Findings* findings) const {
   Finding finding = Start("late_stamps", channel->lateness());
   finding.limit = channel->limits().lateness;
   finding.unit = Unit(channel) + std::string("/s^2");
-  finding.what = "accelerates by up to " + Printed("%.3g ", channel->lateness().acceleration) +
-                 finding.unit + " between samples (" + Printed("%.3g", finding.size) +
+  finding.what = "accelerates by up to " + FormatRounded(channel->lateness().acceleration) + " " +
+                 finding.unit + " between samples (" + FormatRounded(finding.size) +
                  " rms), and is smooth where its samples are counted out evenly: its stamps are "
                  "late by 0 to " +
-                 Printed("%.2g ms", 1e3 * channel->worst_lateness());
+                 FormatRounded(1e3 * channel->worst_lateness(), 2) + " ms";
   finding.remedy = "stamp poses when they are measured, or use --smooth " +
                    Printed("%g", RoundFrequency(0.2 / period())) +
                    ", which puts them back on a steady clock";
@@ -278,10 +279,10 @@ std::string EdgeJudge::Impl::SmoothText(const MotionChannel& channel, double noi
   const double motion = channel.vibration_frequency();
   if (cutoff >= kKeeps * motion || !Vibrates(channel))
     return "--smooth " + Printed("%g", cutoff) + " leaves little of it";
-  const std::string moves = "it also vibrates at " + Printed("%.2g Hz", motion);
+  const std::string moves = "it also vibrates at " + FormatRounded(motion, 2) + " Hz";
   if (kKeeps * motion > most)
     return moves + ", which --smooth HZ would take out too: measure it with less noise, or faster";
-  return moves + ": --smooth " + Printed("%.2g", kKeeps * motion) + " keeps that";
+  return moves + ": --smooth " + FormatRounded(kKeeps * motion, 2) + " keeps that";
 }
 
 void EdgeJudge::Impl::ReportNoise(Findings* findings) const {
@@ -292,7 +293,7 @@ void EdgeJudge::Impl::ReportNoise(Findings* findings) const {
   Finding finding = Start("noise", channel->noise());
   finding.limit = channel->limits().noise;
   finding.unit = Unit(channel) + std::string("/s^2");
-  finding.what = "accelerates by " + Printed("%.3g ", finding.size) + finding.unit +
+  finding.what = "accelerates by " + FormatRounded(finding.size) + " " + finding.unit +
                  " rms back and forth from sample to sample";
   finding.remedy =
       "is it noise, are its stamps late, or does it vibrate faster than it was sampled? " +
@@ -316,7 +317,7 @@ void EdgeJudge::Impl::ReportQuantisation(Findings* findings) const {
   finding.limit = channel->limits().noise * Interval() * Interval() / kToggles;
   finding.unit = Unit(channel);
   finding.what = "moves in steps of " + SizeText(channel, finding.size) +
-                 ": it is quantised, and accelerates by " + Printed("%.3g ", acceleration) +
+                 ": it is quantised, and accelerates by " + FormatRounded(acceleration) + " " +
                  finding.unit + "/s^2" + (all_the_time ? " rms" : "") + " from step to step";
   finding.remedy = "record it with more digits, or a finer sensor; " +
                    SmoothText(*channel, std::max(acceleration, channel->limits().noise));

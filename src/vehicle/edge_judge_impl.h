@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cosserat_cable/input/number_text.h"
 #include "burst_judge.h"
 #include "cosserat_cable/vehicle/edge_judge.h"
 #include "course_judge.h"
@@ -107,8 +108,7 @@ struct EdgeJudge::Impl {
   template <class Tally>
   Finding Start(const char* kind, const Tally& tally) const;
   std::string SizeText(const MotionChannel* channel, double size) const {
-    if (channel == &rotation) return Printed("%.3g deg", size * 180 / M_PI);
-    return size < 1 ? Printed("%.3g mm", 1e3 * size) : Printed("%.3g m", size);
+    return channel == &rotation ? FormatRounded(size * 180 / M_PI) + " deg" : FormatLength(size);
   }
   void ReportOutliers(Findings* findings) const;
   void ReportEnds(Findings* findings) const;

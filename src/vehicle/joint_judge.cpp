@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/math/rotation.h"
 
 namespace cosserat_cable {
@@ -26,7 +27,7 @@ constexpr double kDegree = M_PI / 180, kMillimetre = 1e-3;
 double Wrapped(double angle) { return std::remainder(angle, 2 * M_PI); }
 
 std::string Range(double lower, double upper) {
-  return Printed("%.4g", lower) + " to " + Printed("%.4g", upper);
+  return FormatRounded(lower, 4) + " to " + FormatRounded(upper, 4);
 }
 
 }  // namespace
@@ -154,8 +155,8 @@ void JointJudge::ReportVelocity(const std::string& topic, Findings* findings) co
   Finding finding = Start("joint_velocity", topic, velocity_);
   finding.limit = joint_->velocity;
   finding.unit += "/s";
-  finding.what = "moves at up to " + Printed("%.4g ", velocity_.size) + finding.unit +
-                 ", the URDF has " + Printed("%.4g", joint_->velocity);
+  finding.what = "moves at up to " + FormatRounded(velocity_.size, 4) + " " + finding.unit +
+                 ", the URDF has " + FormatRounded(joint_->velocity, 4);
   const double scale = turns() ? kDegree : kMillimetre;
   const bool unit_fits = scale * velocity_.size <= joint_->velocity;
   const bool often =
@@ -175,7 +176,7 @@ Findings JointJudge::Report(const std::string& topic) const {
   if (half_turn_.count > 0) {
     Finding finding = Start("half_turn", topic, half_turn_);
     finding.limit = M_PI;
-    finding.what = "turns by up to " + Printed("%.3g", half_turn_.size) +
+    finding.what = "turns by up to " + FormatRounded(half_turn_.size) +
                    " rad from one sample to the next, more than half a turn (" +
                    std::to_string(half_turn_.count) + " times)";
     finding.remedy = "which way it turned is not known: are these degrees, or is the rate too low?";
@@ -189,7 +190,7 @@ Findings JointJudge::Report(const std::string& topic) const {
     finding.what =
         "is a " + std::string(turns() ? "revolute" : "prismatic") +
         " joint, and its transform is off its axis by up to " +
-        (by_turn ? Printed("%.3g rad", finding.size) : Printed("%.3g mm", 1e3 * finding.size));
+        (by_turn ? FormatRounded(finding.size) + " rad" : FormatLength(finding.size));
     finding.remedy = "is this the URDF of the vehicle that was recorded?";
     findings.push_back(std::move(finding));
   }

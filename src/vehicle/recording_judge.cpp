@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cosserat_cable/input/number_text.h"
+
 namespace cosserat_cable {
 namespace {
 
@@ -29,8 +31,8 @@ double Angle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 }
 
 std::string Difference(double translation, double rotation) {
-  return Printed("%.3g mm", 1e3 * translation) + " and " +
-         Printed("%.3g deg", rotation * 180 / M_PI);
+  return FormatLength(translation) + " and " +
+         FormatRounded(rotation * 180 / M_PI) + " deg";
 }
 
 }  // namespace

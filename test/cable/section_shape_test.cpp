@@ -67,7 +67,7 @@ TEST(FlatSection, MistakesAreNamed) {
             "f:7: cable.EI1: got 400, expected at most 337 [N m^2], four times a bar of diamond: "
             "is it in N mm^2?\n");
   EXPECT_EQ(SaidOfStrip("EI2: 1417.5", "EI2: 40000"),
-            "f:8: cable.EI2: got 40000, expected at most 3.37e+04 [N m^2], four times a bar of "
+            "f:8: cable.EI2: got 40000, expected at most 33700 [N m^2], four times a bar of "
             "diamond: is it in N mm^2?\n");
 }
 

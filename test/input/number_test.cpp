@@ -43,7 +43,28 @@ TEST(FormatNumber, IsShortForShortNumbers) {
   EXPECT_EQ(FormatNumber(0.1 + 0.2), "0.30000000000000004");
   EXPECT_EQ(FormatNumber(-40), "-40");
   EXPECT_EQ(FormatNumber(1e-4), "0.0001");
+}
+
+TEST(FormatRounded, HasNoExponentWherePeopleWriteNone) {
   EXPECT_EQ(FormatRounded(0.123456), "0.123");
+  EXPECT_EQ(FormatRounded(0.0001234), "0.000123");
+  EXPECT_EQ(FormatRounded(999.6), "1000");
+  EXPECT_EQ(FormatRounded(3514.2), "3510");
+  EXPECT_EQ(FormatRounded(-249423), "-249000");
+  EXPECT_EQ(FormatRounded(249423, 2), "250000");
+  EXPECT_EQ(FormatRounded(999600), "1e+06");
+  EXPECT_EQ(FormatRounded(1.5e8), "1.5e+08");
+  EXPECT_EQ(FormatRounded(1.2e-5), "1.2e-05");
+}
+
+TEST(FormatLength, ChangesItsUnitWhereTheRoundedFigureDoes) {
+  EXPECT_EQ(FormatLength(0.01234), "12.3 mm");
+  EXPECT_EQ(FormatLength(0.9994), "999 mm");
+  EXPECT_EQ(FormatLength(0.99976), "1 m");
+  EXPECT_EQ(FormatLength(-1.2345), "-1.23 m");
+  EXPECT_EQ(FormatLength(2500), "2500 m");
+  EXPECT_EQ(FormatLength(0.99976, 4), "999.8 mm");
+  EXPECT_EQ(FormatLength(0), "0 mm");
 }
 
 TEST(FormatNumber, ReadsBackToTheSameBits) {

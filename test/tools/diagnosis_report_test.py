@@ -129,7 +129,7 @@ class DiagnosisReport(unittest.TestCase):
             page, 'made <up> & small', 'Cause: air_drag. The plain model leaves 9 times the noise',
             '94 % is gone', '91 % to 96 %', 'These records exclude every rival that was fitted',
             'ring / tip: where the plain model is off most', 'Loops: no record is quasi-static',
-            'the verdict', 'it explains 41 % of the misfit', 'worse than plain', '2.9e+04 ± 8e+02',
+            'the verdict', 'it explains 41 % of the misfit', 'worse than plain', '29000 ± 800',
             '2 causes that were not fitted', 'cannot be seen', 'extensions.air_drag.Cd',
             'undetermined: [eta_EI] moves no record', 'undetermined: too small', '144,742',
             'bend: the record ends early', '12.3 s', 'extended_cable.yaml and extended_measurement')

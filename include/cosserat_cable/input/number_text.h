@@ -24,7 +24,12 @@ NumberText ParseNumber(const std::string& text);
 /// @pre `value` is finite.
 std::string FormatNumber(double value);
 
-/// Rounded to so many significant digits, for people. @pre `value` is finite.
+/// Rounded to so many significant digits, for people: without an exponent from 1e-4 to below 1e6.
+/// @pre `value` is finite.
 std::string FormatRounded(double value, int digits = 3);
+
+/// A length [m] for people, in millimetres where it rounds to less than a metre: "12.3 mm", "1.2 m".
+/// @pre `metres` is finite.
+std::string FormatLength(double metres, int digits = 3);
 
 }  // namespace cosserat_cable
