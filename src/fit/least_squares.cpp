@@ -22,8 +22,15 @@ constexpr int kSmallGains = 3;
 constexpr double kPromised = 4;
 constexpr int kOutOfReach = 3;
 // Where derivatives are kept: a step that gains less than this part of what was promised asks for
-// new ones.
-constexpr double kAsPromised = 0.3;
+// new ones; so does one that gains less than that part of what a step without damping promises,
+// since damping makes up for derivatives that are not right any more, by small steps.
+constexpr double kAsPromised = 0.3, kHeldBack = 0.1;
+// Twice what an unknown costs, by the variance of what is left, that moves by its own size (by one
+// at least) in one step: those that the residuals hardly show stay where they are until the others
+// are found. Their diagonal entry alone would let them drift far for next to nothing, and a valley
+// that runs along them has no end (Transtrum, Machta and Sethna 2011, Phys. Rev. E 83, 036701:
+// "evaporation").
+constexpr double kOfOwnSize = 0.1;
 // Of the largest diagonal entry: a direction that no residual shows is not followed.
 constexpr double kZeroDiagonal = 1e-14;
 // Mean square of the residuals, in the noise's variance, above which they are no noise; and the
@@ -46,10 +53,11 @@ std::vector<Eigen::Index> FreeOf(const Eigen::VectorXd& x,
   return free;
 }
 
-/// The damped step over the free unknowns, zero for the others. `gain`: what the linear model
-/// promises.
+/// The damped step over the free unknowns, zero for the others. `tied`: by unknown, twice what it
+/// costs to move by one. `gain`: what the linear model promises.
 Eigen::VectorXd StepOf(const LeastSquaresProblem::Linearisation& at,
-                       const std::vector<Eigen::Index>& free, double damping, double* gain) {
+                       const std::vector<Eigen::Index>& free, double damping,
+                       const Eigen::VectorXd& tied, double* gain) {
   const auto n = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd gram(n, n);
   Eigen::VectorXd gradient(n), unit(n);
@@ -60,7 +68,7 @@ Eigen::VectorXd StepOf(const LeastSquaresProblem::Linearisation& at,
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index k = 0; k < n; ++k) gram(i, k) = unit[i] * unit[k] * at.gram(free[i], free[k]);
   Eigen::MatrixXd damped = gram;
-  damped.diagonal().array() += damping;
+  for (Eigen::Index i = 0; i < n; ++i) damped(i, i) += damping + unit[i] * unit[i] * tied[free[i]];
   const Eigen::VectorXd step = -damped.ldlt().solve(gradient);
   *gain = -(gradient.dot(step) + 0.5 * step.dot(gram * step));
   Eigen::VectorXd all = Eigen::VectorXd::Zero(at.gradient.size());
@@ -118,8 +126,11 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
     result.cost = at.cost;
     const std::vector<Eigen::Index> free = FreeOf(result.x, at, options);
     const double noise = std::max(1.0, 2 * at.cost / std::max(options.samples, 1.0));
-    double gain = 0;
-    StepOf(at, free, kSmallest, &gain);
+    double gain = 0, promise = 0;
+    const Eigen::VectorXd tied =
+        kOfOwnSize * noise * result.x.cwiseAbs().cwiseMax(1).cwiseAbs2().cwiseInverse();
+    StepOf(at, free, kSmallest, tied, &gain);
+    StepOf(at, free, kSmallest, Eigen::VectorXd::Zero(tied.size()), &promise);
     result.gain_left = gain / noise;
     // What is more than noise hides more than as much noise would: it goes the same way for long.
     const double of_misfit =
@@ -133,7 +144,7 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
       result.end = End::kIterations;
       return result;
     }
-    const bool far = options.aim > 0 && at.cost - kPromised * gain > options.aim;
+    const bool far = options.aim > 0 && at.cost - kPromised * promise > options.aim;
     out_of_reach = far ? out_of_reach + 1 : 0;
     if (out_of_reach >= kOutOfReach) {
       result.end = End::kFar;
@@ -167,13 +178,14 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
       std::vector<double> dampings, promised;
       const int count = first ? 1 + problem->Room() : problem->SideBySide();
       for (int k = 0; k < count; ++k, tried *= kRatio) {
-        Eigen::VectorXd next = result.x + StepOf(at, free, tried, &gain);
+        double expected = 0;
+        Eigen::VectorXd next = result.x + StepOf(at, free, tried, tied, &expected);
         next = next.cwiseMax(options.lower).cwiseMin(options.upper);
         problem->Restrain(result.x, &next);
         if (!next.allFinite()) continue;
         points.push_back(next);
         dampings.push_back(tried);
-        promised.push_back(gain);
+        promised.push_back(expected);
       }
       if (points.empty()) continue;
       Best best{enough};
@@ -205,7 +217,8 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
       }
       const double gained = at.cost - there.cost;
       const bool poor = gained < kAsPromised * promised[k];
-      next_renew = poor && way == Renew::kSome ? Renew::kAll : way;
+      const bool held_back = !at.whole && gained < kHeldBack * gain;
+      next_renew = (poor || held_back) && way == Renew::kSome ? Renew::kAll : way;
       if (there.kept && poor) {
         LeastSquaresProblem::Linearisation anew =
             problem->Linearise(points[k], {}, Renew::kSome, &costs);

@@ -11,8 +11,19 @@ namespace {
 
 using Eigen::Vector2d;
 
+/// What takes a value for a simulation.
+class Simulated : public LeastSquaresProblem {
+ public:
+  int SideBySide() const override { return 4; }
+  int Room() const override { return 1; }
+  bool GoOn(int, double) override { return true; }
+  void Restrain(const Eigen::VectorXd&, Eigen::VectorXd*) const override {}
+
+  int linearised = 0;
+};
+
 /// Residuals 10 (y - x^2), 1 - x and one that nothing changes. May keep a derivative.
-class Valley : public LeastSquaresProblem {
+class Valley : public Simulated {
  public:
   explicit Valley(double floor) : floor_(floor) {}
 
@@ -44,15 +55,10 @@ class Valley : public LeastSquaresProblem {
     for (const Eigen::VectorXd& x : points) costs.push_back(Cost(x));
     return costs;
   }
-  int SideBySide() const override { return 4; }
-  int Room() const override { return 1; }
-  bool GoOn(int, double) override { return true; }
-  void Restrain(const Eigen::VectorXd&, Eigen::VectorXd*) const override {}
 
   /// Between these, on the first axis, there are values but no derivatives.
   void SetCliff(double from, double to) { cliff_ = {from, to}; }
 
-  int linearised = 0;
   std::vector<Eigen::VectorXd> places;  ///< where derivatives were asked for
 
  private:
@@ -136,6 +142,52 @@ TEST(LeastSquaresTest, DoesNotFollowTheValleyWhereItsAimLiesBelowTheFloor) {
   const LeastSquaresResult there = Minimise(kStart, options, &reached);
   EXPECT_EQ(there.end, LeastSquaresResult::End::kMinimum);
   EXPECT_LT((there.x - end.x).norm(), kNear);
+}
+
+/// Residuals 100 (x - 1) and `shown` (y - 50), in units of the noise.
+class Shown : public Simulated {
+ public:
+  explicit Shown(double shown) : slopes_(100, shown) {}
+
+  Linearisation Linearise(const Eigen::VectorXd& x, const std::vector<Eigen::VectorXd>& others,
+                          Renew, std::vector<double>* costs) override {
+    ++linearised;
+    *costs = Costs(others);
+    Linearisation at;
+    at.ok = true;
+    at.cost = Costs({x})[0];
+    at.gram = slopes_.cwiseAbs2().asDiagonal();
+    at.gradient = slopes_.cwiseProduct(Residuals(x));
+    return at;
+  }
+  std::vector<double> Costs(const std::vector<Eigen::VectorXd>& points) override {
+    std::vector<double> costs;
+    for (const Eigen::VectorXd& x : points) costs.push_back(0.5 * Residuals(x).squaredNorm());
+    return costs;
+  }
+
+ private:
+  Vector2d Residuals(const Eigen::VectorXd& x) const {
+    return slopes_.cwiseProduct(x - Vector2d(1, 50));
+  }
+
+  Vector2d slopes_;
+};
+
+TEST(LeastSquaresTest, WhatTheResidualsHardlyShowStaysWhereItIs) {
+  LeastSquaresOptions options = Wide();
+  options.small_gain = 5e-3;
+  // The whole way is worth half a noise variance.
+  Shown hardly(0.02);
+  const LeastSquaresResult kept = Minimise(Vector2d(2, 1), options, &hardly);
+  EXPECT_EQ(kept.end, LeastSquaresResult::End::kMinimum);
+  EXPECT_NEAR(kept.x[0], 1, kNear);
+  EXPECT_NEAR(kept.x[1], 1, 0.5);
+  // Here 49 times the noise is at stake.
+  Shown well(1);
+  const LeastSquaresResult found = Minimise(Vector2d(2, 1), options, &well);
+  EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);
+  EXPECT_NEAR(found.x[1], 50, 0.2);
 }
 
 }  // namespace
