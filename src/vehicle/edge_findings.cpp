@@ -59,8 +59,8 @@ Finding EdgeJudge::Corrections(const std::string& subject, const std::string& to
     finding.what =
         (slides.count == 1 ? std::string("slides by ")
                            : "slides " + std::to_string(slides.count) + " times, by up to ") +
-        impl_->SizeText(channel, slides.size) + " within " + FormatRounded(slides.duration, 2) + " s" +
-        ", and rests otherwise";
+        impl_->SizeText(channel, slides.size) + " within " + FormatRounded(slides.duration, 2) +
+        " s, and rests otherwise";
   }
   finding.limit = channel->limits().jump;
   finding.unit = impl_->Unit(channel);

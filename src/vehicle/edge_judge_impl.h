@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "cosserat_cable/input/number_text.h"
 #include "burst_judge.h"
+#include "cosserat_cable/input/number_text.h"
 #include "cosserat_cable/vehicle/edge_judge.h"
 #include "course_judge.h"
 #include "motion_channel.h"

@@ -187,10 +187,9 @@ Findings JointJudge::Report(const std::string& topic) const {
     Finding finding = Start("off_axis", topic, by_turn ? off_turn_ : off_axis_);
     finding.limit = by_turn ? kOffTurn : kOffAxis;
     finding.unit = by_turn ? "rad" : "m";
-    finding.what =
-        "is a " + std::string(turns() ? "revolute" : "prismatic") +
-        " joint, and its transform is off its axis by up to " +
-        (by_turn ? FormatRounded(finding.size) + " rad" : FormatLength(finding.size));
+    finding.what = "is a " + std::string(turns() ? "revolute" : "prismatic") +
+                   " joint, and its transform is off its axis by up to " +
+                   (by_turn ? FormatRounded(finding.size) + " rad" : FormatLength(finding.size));
     finding.remedy = "is this the URDF of the vehicle that was recorded?";
     findings.push_back(std::move(finding));
   }

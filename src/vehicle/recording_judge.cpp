@@ -31,8 +31,7 @@ double Angle(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
 }
 
 std::string Difference(double translation, double rotation) {
-  return FormatLength(translation) + " and " +
-         FormatRounded(rotation * 180 / M_PI) + " deg";
+  return FormatLength(translation) + " and " + FormatRounded(rotation * 180 / M_PI) + " deg";
 }
 
 }  // namespace

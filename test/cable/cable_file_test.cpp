@@ -243,14 +243,12 @@ TEST(CableFile, ReportsSlipsOfUnits) {
   EXPECT_EQ(
       Said("EI: 0.012", "EI: 2.0e+5"),
       "f:6: cable.EI: got 2.0e+5, expected a number in (0, 100000] [N m^2]: is it in N mm^2?\n");
-  EXPECT_EQ(
-      Said("EI: 0.012", "EI: 12000"),
-      "f:6: cable.EI: got 12000, expected at most 1010 [N m^2], four times a bar of diamond: "
-      "is it in N mm^2?\n");
-  EXPECT_EQ(
-      Said("GJ: 0.009", "GJ: 9000"),
-      "f:7: cable.GJ: got 9000, expected at most 1010 [N m^2], four times a bar of diamond: "
-      "is it in N mm^2?\n");
+  EXPECT_EQ(Said("EI: 0.012", "EI: 12000"),
+            "f:6: cable.EI: got 12000, expected at most 1010 [N m^2], four times a bar of diamond: "
+            "is it in N mm^2?\n");
+  EXPECT_EQ(Said("GJ: 0.009", "GJ: 9000"),
+            "f:7: cable.GJ: got 9000, expected at most 1010 [N m^2], four times a bar of diamond: "
+            "is it in N mm^2?\n");
 }
 
 TEST(CableFile, ReportsNumbersThatAreNoneOrOutOfRange) {

@@ -28,7 +28,7 @@ std::string FormatNumber(double value);
 /// @pre `value` is finite.
 std::string FormatRounded(double value, int digits = 3);
 
-/// A length [m] for people, in millimetres where it rounds to less than a metre: "12.3 mm", "1.2 m".
+/// A length [m] for people, in millimetres where it rounds to less than a metre: "12.3 mm".
 /// @pre `metres` is finite.
 std::string FormatLength(double metres, int digits = 3);
 
