@@ -24,8 +24,9 @@ constexpr double kLeastTime = 3, kPartOfFit = 0.03;
 constexpr double kLeastTimeOfMended = 24, kPartOfFitOfMended = 0.1;
 // Stiffnesses that two records show are the same within this, relative.
 constexpr double kSameStiffness = 0.02;
-// Records whose slips are looked for, the worst first: each takes seconds.
-constexpr std::size_t kMostRecords = 8;
+// Records whose slips are looked for, the worst first: each takes seconds; so many of those with an
+// unknown start, which are fitted anew by themselves.
+constexpr std::size_t kMostRecords = 8, kMostFittedAnew = 4;
 
 /// By how much the worst channel exceeds its noise, squared; zero where it need not be looked at.
 double Suspicion(const Experiment& experiment, const ExperimentFit& fit) {
@@ -184,13 +185,16 @@ std::vector<ChannelSlip> FindSlips(const MeasurementSet& set, const Estimation& 
   std::optional<KnownSlip> input;
   MeasurementSet with_set_mended = set;
   std::vector<FitsAlone> alone;
+  std::size_t fitted_anew = 0;
   for (std::size_t k = 0; k < std::min(suspects.size(), kMostRecords) && !ended(); ++k) {
     const std::size_t e = suspects[k].second;
+    const bool unknown_start = set.experiments[e].start.kind == StartCondition::Kind::kUnknown;
+    if (unknown_start && ++fitted_anew > kMostFittedAnew) continue;
     if (options.progress &&
         !options.progress("looking for slips in " + set.experiments[e].name, 0.95))
       return slips;
     of_record.time_budget = std::min(time_left(), std::max(kLeastTime, kPartOfFit * fit.seconds));
-    if (set.experiments[e].start.kind == StartCondition::Kind::kUnknown) {
+    if (unknown_start) {
       const auto found = OffsetsBesideAStart(set, e, fit.experiments[e], of_record);
       slips.insert(slips.end(), found.begin(), found.end());
       continue;
