@@ -1,6 +1,6 @@
 #include "cosserat_cable/fit/fit.h"
 
-#include <Eigen/QR>
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -408,8 +408,11 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
 bool Polish(const RecordModel& model, const RecordJacobian& jacobian, const NoiseLevels& noise,
             Eigen::VectorXd* values) {
   const Unknowns& unknowns = model.unknowns();
-  const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> solve(jacobian.Gram());
-  Eigen::VectorXd best = *values;
+  Eigen::VectorXd best = *values, relative = *values;
+  for (int i = 0; i < unknowns.size(); ++i) relative[i] /= unknowns.all()[i].scale;
+  Eigen::MatrixXd gram = jacobian.Gram();
+  gram.diagonal() += Ties(relative, 1);
+  const Eigen::LDLT<Eigen::MatrixXd> solve(gram);
   double least = std::numeric_limits<double>::infinity();
   for (int step = 0; step <= kPolishSteps; ++step) {
     const RecordModel::Simulated found = model.Simulate({best}, model.WholeHorizon()).front();

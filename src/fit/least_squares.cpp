@@ -25,12 +25,6 @@ constexpr int kOutOfReach = 3;
 // new ones; so does one that gains less than that part of what a step without damping promises,
 // since damping makes up for derivatives that are not right any more, by small steps.
 constexpr double kAsPromised = 0.3, kHeldBack = 0.1;
-// Twice what an unknown costs, by the variance of what is left, that moves by its own size (by one
-// at least) in one step: those that the residuals hardly show stay where they are until the others
-// are found. Their diagonal entry alone would let them drift far for next to nothing, and a valley
-// that runs along them has no end (Transtrum, Machta and Sethna 2011, Phys. Rev. E 83, 036701:
-// "evaporation").
-constexpr double kOfOwnSize = 0.1;
 // Of the largest diagonal entry: a direction that no residual shows is not followed.
 constexpr double kZeroDiagonal = 1e-14;
 // Mean square of the residuals, in the noise's variance, above which they are no noise; and the
@@ -95,6 +89,10 @@ struct Best {
 
 }  // namespace
 
+Eigen::VectorXd Ties(const Eigen::VectorXd& x, double variance) {
+  return variance * x.cwiseAbs().cwiseMax(1).cwiseAbs2().cwiseInverse();
+}
+
 LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOptions& options,
                             LeastSquaresProblem* problem) {
   using End = LeastSquaresResult::End;
@@ -127,8 +125,7 @@ LeastSquaresResult Minimise(const Eigen::VectorXd& start, const LeastSquaresOpti
     const std::vector<Eigen::Index> free = FreeOf(result.x, at, options);
     const double noise = std::max(1.0, 2 * at.cost / std::max(options.samples, 1.0));
     double gain = 0, promise = 0;
-    const Eigen::VectorXd tied =
-        kOfOwnSize * noise * result.x.cwiseAbs().cwiseMax(1).cwiseAbs2().cwiseInverse();
+    const Eigen::VectorXd tied = Ties(result.x, noise);
     StepOf(at, free, kSmallest, tied, &gain);
     StepOf(at, free, kSmallest, Eigen::VectorXd::Zero(tied.size()), &promise);
     result.gain_left = gain / noise;

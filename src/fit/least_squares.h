@@ -61,6 +61,13 @@ struct LeastSquaresOptions {
   bool finish = true;
 };
 
+/// By unknown, twice what a step costs in which it moves by one: so much that a move by its own
+/// size, one at least, costs half of the variance of what is left. Unknowns that the residuals
+/// hardly show stay where they are until the others are found. Their diagonal entry of J^T J alone
+/// would let them drift far for next to nothing, and a valley that runs along them has no end
+/// (Transtrum, Machta and Sethna 2011, Phys. Rev. E 83, 036701: "evaporation").
+Eigen::VectorXd Ties(const Eigen::VectorXd& x, double variance);
+
 struct LeastSquaresResult {
   enum class End {
     kMinimum,  ///< less than small_gain can be gained
