@@ -113,8 +113,8 @@ Where the two simulations are more than a part in a thousand apart:
 - `contact`: `stiffness` is that of one contact point. Here they are no farther apart than the cable's
   radius, so that their number goes with `elements`; the second simulation has 40 in a length. Impacts
   carry that on. A fit that begins with the obstacle in a wrong place, of records that are mostly
-  impacts, ends in another minimum: a plane that is far too soft. `cable_diagnose` begins with obstacles
-  that just touch the motion.
+  impacts, ends in another minimum, where chance decides and the standard deviations that it tells mean
+  nothing. `cable_diagnose` begins with obstacles that just touch the motion.
 
 ## The numbers
 
