@@ -21,9 +21,9 @@ constexpr int kSmallGains = 3;
 // in a row.
 constexpr double kPromised = 4;
 constexpr int kOutOfReach = 3;
-// Where derivatives are kept: a step that gains less than this part of what was promised asks for
-// new ones; so does one that gains less than that part of what a step without damping promises,
-// since damping makes up for derivatives that are not right any more, by small steps.
+// Where derivatives are kept, new ones are asked for by a step that gains less than the first part
+// of what it promised, or less than the second of what a step without damping promises: damping
+// makes up for derivatives that are not right any more, by small steps.
 constexpr double kAsPromised = 0.3, kHeldBack = 0.1;
 // Of the largest diagonal entry: a direction that no residual shows is not followed.
 constexpr double kZeroDiagonal = 1e-14;

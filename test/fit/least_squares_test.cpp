@@ -182,14 +182,14 @@ TEST(LeastSquaresTest, WhatTheResidualsHardlyShowStaysWhereItIs) {
   LeastSquaresOptions options = Wide();
   options.small_gain = 5e-3;
   options.samples = 1000;
-  // The whole way is worth half a noise variance.
+  // The whole way is worth half of the noise's variance.
   Shown hardly(0.02);
   const LeastSquaresResult kept = Minimise(Vector2d(2, 1), options, &hardly);
   EXPECT_EQ(kept.end, LeastSquaresResult::End::kMinimum);
   constexpr double kOfNoise = 0.01;  // in x
   EXPECT_NEAR(kept.x[0], 1, kOfNoise);
   EXPECT_NEAR(kept.x[1], 1, 0.5);
-  // Here 49 times the noise is at stake.
+  // Here it is worth 1200 of it.
   Shown well(1);
   const LeastSquaresResult found = Minimise(Vector2d(2, 1), options, &well);
   EXPECT_EQ(found.end, LeastSquaresResult::End::kMinimum);

@@ -73,12 +73,12 @@ std::string Xml(const Cable& cable) {
 
 class Chain {
  public:
-  Chain(const Cable& cable, const Loss& loss) : cable_(cable), loss_(loss) {
-    const std::string path = std::filesystem::temp_directory_path() / "mujoco_rig.xml";
+  /// Its model is written to `path`.
+  Chain(const Cable& cable, const Loss& loss, const std::string& path)
+      : cable_(cable), loss_(loss) {
     std::ofstream(path) << Xml(cable);
     char error[1000] = "";
     model_.reset(mj_loadXML(path.c_str(), nullptr, error, sizeof error));
-    std::filesystem::remove(path);
     if (!model_) throw std::runtime_error(error);
     data_.reset(mj_makeData(model_.get()));
   }
@@ -228,9 +228,9 @@ std::string Experiment(const Cable& cable, const Pull& pull, const Point& held, 
 void Write(const Options& options) {
   namespace fs = std::filesystem;
   const Cable cable;
-  Chain chain(cable, options.loss);
-  std::mt19937 random(options.seed);
   fs::create_directories(options.output);
+  Chain chain(cable, options.loss, fs::path(options.output) / "mujoco.xml");
+  std::mt19937 random(options.seed);
   std::ostringstream set;
   // A tenth off, as a data sheet would be.
   set << "format: 1\ncable: {length: " << cable.length << ", diameter: " << cable.diameter
@@ -246,8 +246,10 @@ void Write(const Options& options) {
     set << Experiment(cable, pull, held, options.cut, noise);
     std::printf("%s: let go at %.4f %.4f %.4f m, noise %.2g m\n", pull.name, held[0], held[1],
                 held[2], noise);
+    std::fflush(stdout);
   }
-  std::ofstream(fs::path(options.output) / "measurement.yaml") << set.str();
+  std::ofstream file(fs::path(options.output) / "measurement.yaml");
+  if (!(file << set.str() << std::flush)) throw std::runtime_error("cannot write the set");
 }
 
 }  // namespace
