@@ -38,7 +38,8 @@ if(MUJOCO_LIBRARY AND MUJOCO_INCLUDE_DIR)
   target_include_directories(mujoco_bench SYSTEM PRIVATE ${MUJOCO_INCLUDE_DIR})
   target_link_libraries(mujoco_bench ${MUJOCO_LIBRARY})
   # Measurement sets of another simulator, for cable_diagnose: docs/diagnosis.md.
-  add_executable(mujoco_rig EXCLUDE_FROM_ALL test/peer/mujoco_rig.cpp)
+  add_executable(mujoco_rig EXCLUDE_FROM_ALL test/peer/mujoco_rig.cpp
+                 test/peer/mujoco_chain.cpp)
   target_include_directories(mujoco_rig SYSTEM PRIVATE ${MUJOCO_INCLUDE_DIR})
   target_link_libraries(mujoco_rig ${MUJOCO_LIBRARY} CLI11::CLI11)
   add_dependencies(benchmarks mujoco_rig)
