@@ -36,8 +36,8 @@ Cause ClampPlayCause() {
   using Role = HypothesisNumber::Role;
   for (const std::string clamp : {"a.", "b."})
     cause.hypotheses.push_back({{{{"extensions.clamp_play." + clamp + "gap", Role::kSize, 0.1},
-                                  {"extensions.clamp_play." + clamp + "stiffness", Role::kFree, 200,
-                                   NumberScale::kClampBending}}}});
+                                  {"extensions.clamp_play." + clamp + "stiffness", Role::kBeside,
+                                   200, NumberScale::kClampBending}}}});
   for (const std::string clamp : {"a.", "b."})
     for (const double gap : {0.03, 0.1, 0.3})
       for (const double stiffness : {1.5, 4.0, 16.0})

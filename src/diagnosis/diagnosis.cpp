@@ -29,8 +29,8 @@ void FitPairs(std::set<std::string>* begun, DiagnosisWork* work) {
   if (singles.size() > kPairsFrom) singles.resize(kPairsFrom);
   for (const int single : singles) {
     if (!begun->insert(work->model(single).causes().front()).second) continue;
-    work->FitCandidates(work->ScreenAround(work->model(single), "screening of pairs"),
-                        single, kMostPairs, 0.6);
+    work->FitCandidates(work->ScreenAround(work->model(single), "screening of pairs"), single,
+                        kMostPairs, 0.6);
   }
   work->FitParts();
   work->Continue(0.7);

@@ -359,8 +359,8 @@ void DiagnosisWork::RefineBest() {
   LookAtTheBest();
 }
 
-/// Of what the best model leaves, which is nearest to noise: how far it is correlated, and how large
-/// the noise is that it no longer hides.
+/// Of what the best model leaves, which is nearest to noise: how far it is correlated, and how
+/// large the noise is that it no longer hides.
 void DiagnosisWork::LookAtTheBest() {
   const auto best =
       std::min_element(models_.begin(), models_.end(),
@@ -392,8 +392,8 @@ double DiagnosisWork::ShareOfBest() const {
 Judgement DiagnosisWork::Judged() const {
   std::vector<Contender> contenders;
   for (const auto& model : models_)
-    contenders.push_back(
-        {model->causes(), model->parameters(), AdequacyOf(model->point, seen_noise_), model->IsFaint()});
+    contenders.push_back({model->causes(), model->parameters(),
+                          AdequacyOf(model->point, seen_noise_), model->IsFaint()});
   std::map<int, Records> predicted;
   const auto predictions = [&](int i) -> const Records& {
     if (!predicted.count(i)) predicted[i] = LinearisedHeldOut(model(i).point);

@@ -30,8 +30,8 @@ struct FittedTrial {
   int parameters() const;
   /// Whether so much is left that how each record began hardly counts.
   bool IsFar() const;
-  /// Of the unknowns that concern one record each, those that stay where they are in fits that begin
-  /// here: none, or all where so much is left that they hardly count and they are many.
+  /// Of the unknowns that concern one record each, those that stay where they are in fits that
+  /// begin here: none, or all where so much is left that they hardly count and they are many.
   std::vector<std::string> Held() const;
   /// Whether one of its causes is far smaller than such a fault can be.
   bool IsFaint() const;

@@ -22,6 +22,8 @@ constexpr double kLargestStart = 3;
 // must leave of it, in squares.
 constexpr double kNothing = 0.5, kOwn = 1e-6;
 constexpr double kRidge = 1e-9;
+// Of a component's size: what is there then acts beside the sizes.
+constexpr double kNoSize = 1e-3;
 
 struct Column {
   std::size_t trial = 0, component = 0;
@@ -175,17 +177,28 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
   std::vector<std::size_t> todo(columns.size());
   for (std::size_t k = 0; k < columns.size(); ++k) todo[k] = k;
   for (int round = 0; round <= kRescaled && !todo.empty(); ++round) {
-    std::vector<Unknowns::Setting> also;
+    std::vector<Unknowns::Setting> also, without;
     for (const std::size_t k : todo) {
       const Trial& trial = trials[columns[k].trial];
-      also.push_back({trial.components[columns[k].component].At(), trial.channels});
+      const TrialComponent& component = trial.components[columns[k].component];
+      also.push_back({component.At(), trial.channels});
+      if (component.acts_beside()) without.push_back({component.At(kNoSize), trial.channels});
     }
-    const std::vector<RecordModel::Simulated> found = problem.model().SimulateWith(at.values, also);
+    also.insert(also.end(), without.begin(), without.end());
+    std::vector<RecordModel::Simulated> found = problem.model().SimulateWith(at.values, also);
+    std::size_t next_without = todo.size();
     std::vector<std::size_t> again;
     for (std::size_t i = 0; i < todo.size(); ++i) {
       Column& column = columns[todo[i]];
       TrialComponent& component = trials[column.trial].components[column.component];
       double& size = component.size;
+      const Records* beside = &at.simulated;
+      if (component.acts_beside()) {
+        const RecordModel::Simulated& reference = found[next_without++];
+        beside = &reference.records;
+        if (reference.ok) beside = &reference.records;
+        found[i].ok = found[i].ok && reference.ok;
+      }
       if (!found[i].ok && failures && (round == kRescaled || !component.grows()))
         (*failures)[trials[column.trial].cause] = found[i].message;
       if (!found[i].ok && !component.grows()) continue;
@@ -198,7 +211,7 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
       }
       Records difference;
       for (std::size_t e = 0; e < at.simulated.size(); ++e)
-        difference.push_back(found[i].records[e] - at.simulated[e]);
+        difference.push_back(found[i].records[e] - (*beside)[e]);
       column.effect = Stacked(problem, difference);
       const double effect = column.effect.norm() / std::sqrt(samples);
       column.shown = column.effect.norm() > kNothing;

@@ -97,6 +97,11 @@ bool TrialComponent::grows() const {
   });
 }
 
+bool TrialComponent::acts_beside() const {
+  return std::any_of(numbers.begin(), numbers.end(),
+                     [](const HypothesisNumber& number) { return number.role == Role::kBeside; });
+}
+
 std::vector<std::pair<std::string, double>> TrialComponent::At(double part) const {
   std::vector<std::pair<std::string, double>> values;
   for (const HypothesisNumber& number : numbers) {

@@ -21,6 +21,8 @@ struct TrialComponent {
 
   /// Whether it can grow from nothing; otherwise it is there or not.
   bool grows() const;
+  /// Whether something of it acts without its sizes, too.
+  bool acts_beside() const;
   /// Values by path at `size` times `part`.
   std::vector<std::pair<std::string, double>> At(double part = 1) const;
 };

@@ -38,6 +38,7 @@ struct HypothesisNumber {
     kSize,     ///< how much of it there is: starts faint, at its neutral value and a little more
     kInverse,  ///< how little of it there is: starts at so large a value that it hardly shows
     kFree,     ///< of another kind than a size (a threshold, a time, a place): starts at its value
+    kBeside,   ///< the same, and acts by itself too: what sizes show is what they add to it
     kHeld      ///< stays at its value
   };
   std::string path;  ///< in the registry of parameters
