@@ -21,6 +21,9 @@ constexpr int kLooseIterations = 12;
 constexpr double kSmallGain = 5e-3, kLoose = 1e-3;
 // The same where what is left is no noise: its parts depend on each other for long.
 constexpr double kOfMisfit = 1e-4;
+// Half the square of the standard deviations that a parameter may be off where steps gain nothing
+// any more: rounding and what is left of the steps in time hide as much.
+constexpr double kHidden = 0.125;
 // Of the differences, in the unknowns' scales; what they should do to a record, in parts of its
 // noise, so that they are neither rounding nor bent; below which part of that, and by which factor
 // in the step, it is worth another try.
@@ -392,7 +395,9 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   FitResult result;
   result.interrupted = found.end == LeastSquaresResult::End::kStopped || model.Stopping();
   result.ok = found.end != LeastSquaresResult::End::kFailed;
-  result.at_minimum = found.end == LeastSquaresResult::End::kMinimum;
+  result.at_minimum =
+      found.end == LeastSquaresResult::End::kMinimum ||
+      (found.end == LeastSquaresResult::End::kStuck && found.gain_left < kHidden);
   result.is_far = found.end == LeastSquaresResult::End::kFar;
   result.message = problem.message();
   result.cost = found.cost;

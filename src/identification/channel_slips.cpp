@@ -26,7 +26,7 @@ constexpr double kLeastTimeOfMended = 24, kPartOfFitOfMended = 0.1;
 constexpr double kSameStiffness = 0.02;
 // Records whose slips are looked for, the worst first: each takes seconds; so many of those with an
 // unknown start, which are fitted anew by themselves.
-constexpr std::size_t kMostRecords = 8, kMostFittedAnew = 4;
+constexpr std::size_t kMostRecords = 8, kMostFittedAnew = 2;
 
 /// By how much the worst channel exceeds its noise, squared; zero where it need not be looked at.
 double Suspicion(const Experiment& experiment, const ExperimentFit& fit) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cosserat_cable/causes/cause.h"
 #include "cosserat_cable/fit/damage.h"
 #include "cosserat_cable/input/number_text.h"
 #include "estimation_remarks.h"
@@ -22,6 +23,17 @@ constexpr double kFewOfPeriod = 5;
 constexpr double kFarAlias = 2;
 // A stiffness that is found this factor from what the set gives, either way, is told.
 constexpr double kFarFromGiven = 2.0;
+
+/// By how much laws of the kind that a number belongs to differ in form: half of a 95 % interval,
+/// in the number's unit. Nothing for the cable's own.
+double HalfWidthOfForm(const std::string& name, double value) {
+  for (const Cause& cause : Causes()) {
+    const std::string law = "extensions." + cause.name;
+    if (name.rfind(law + ".", 0) == 0 || name.rfind(law + "[", 0) == 0)
+      return cause.form * std::abs(value);
+  }
+  return 0;
+}
 
 }  // namespace
 
@@ -233,6 +245,10 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
           estimate.high = estimate.value + wider * (interval->second - estimate.value);
         }
       }
+      const double of_form = HalfWidthOfForm(estimate.unknown.name, estimate.value);
+      estimate.sd = std::hypot(estimate.sd, of_form / kNormal95);
+      estimate.low = estimate.value - std::hypot(estimate.value - estimate.low, of_form);
+      estimate.high = estimate.value + std::hypot(estimate.high - estimate.value, of_form);
       estimate.low = std::max(estimate.low, estimate.unknown.lower);
     }
     estimation_.parameters.push_back(std::move(estimate));
@@ -260,8 +276,14 @@ void EstimationWork::Report(const std::vector<ParameterScatter>& scatter) {
   clock_->Charge("models without mechanics");
   if (!hurried_) ReportOtherMinimum();
   estimation_.converged = end_.empty();
-  if (!end_.empty())
-    estimation_.warnings.push_back("these are the best values so far, and no minimum: " + end_);
+  if (!end_.empty()) {
+    estimation_.warnings.push_back("these are the best values so far, and no minimum: " + end_ +
+                                   "; the intervals do not tell how far off they are");
+    // Standard deviations are curvatures of a minimum.
+    for (ParameterEstimate& one : estimation_.parameters)
+      if (one.determined)
+        one.doubt = "the fit ended at no minimum: the interval does not tell how far it is off";
+  }
   estimation_.ok = true;
   estimation_.seconds = clock_->seconds();
 }

@@ -141,7 +141,9 @@ bool EstimationWork::FitInRounds() {
   }
   end_ = fit_.at_minimum
              ? ""
-             : "no step gains anything, although some should: the records' misfit is rough";
+             : "no step gains anything, although the derivatives put the minimum " +
+                   FormatRounded(std::sqrt(2 * fit_.gain_left), 2) +
+                   " standard deviations away: the records' misfit is rough";
   return true;
 }
 

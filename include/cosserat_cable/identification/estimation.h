@@ -53,7 +53,8 @@ struct ParameterEstimate {
   double low = 0, high = 0;  ///< 95 %, from the profile where there is one
   double quantile = 0;       ///< standard deviations to the ends of the curvature's interval
   std::string reason;        ///< why it is not determined
-  std::string doubt;         ///< a slip that is suspected, with which it would be another one
+  /// Why value and interval are not to be trusted: a slip that is suspected, or no minimum.
+  std::string doubt;
   Profile profile;
 };
 
