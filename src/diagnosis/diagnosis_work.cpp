@@ -31,6 +31,8 @@ constexpr double kFar = 30;
 constexpr std::size_t kFewOfRecords = 30;
 // A factor that the plain model has changed a stiffness by, from which a cause may not find back.
 constexpr double kRanAway = 3;
+// Rounds in which a better place of an obstacle is looked for.
+constexpr int kObstacleRounds = 4;
 const char* const kPlain = "plain";
 
 /// Of trials with all that they begin with.
@@ -180,7 +182,8 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
                                                   const std::string& stage) {
   if (!Tell("screening the causes", 0.2)) return {};
   std::vector<Trial> trials = AllTrials(set_, scales_);
-  const std::vector<Trial> obstacles = TrialObstacles(*base.problem, base.point);
+  const bool whole = base.trials.empty() && !AdequacyOf(base.point, seen_noise_).adequate;
+  const std::vector<Trial> obstacles = TrialObstacles(*base.problem, base.point, whole);
   trials.insert(trials.end(), obstacles.begin(), obstacles.end());
   const auto cannot_be_beside = [&](const Trial& trial) {
     return !std::all_of(base.trials.begin(), base.trials.end(),
@@ -194,6 +197,7 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
         component.size = size->second;
   std::map<std::string, std::string> failures;
   std::vector<Screened> screened = Screen(*base.problem, base.point, std::move(trials), &failures);
+  LookAroundTheBestObstacle(base, &screened);
   for (const Screened& one : screened)
     for (const TrialComponent& component : one.trial.components)
       sizes_[NameOf(one.trial, component)] = component.size;
@@ -206,6 +210,22 @@ std::vector<Screened> DiagnosisWork::ScreenAround(const FittedTrial& base,
   }
   Charge(stage, base.problem->count() - before);
   return screened;
+}
+
+/// A whole obstacle that promises most leads to a better one near it, before any fit begins there.
+void DiagnosisWork::LookAroundTheBestObstacle(const FittedTrial& base,
+                                              std::vector<Screened>* screened) const {
+  const auto best = std::find_if(screened->begin(), screened->end(),
+                                 [](const Screened& one) { return one.trial.cause == "contact"; });
+  if (best == screened->end() || best->trial.components.front().grows()) return;
+  for (int round = 0; round < kObstacleRounds; ++round) {
+    std::vector<Screened> around =
+        Screen(*base.problem, base.point, ObstaclesAround(best->trial, scales_.length));
+    if (around.empty() || !(around.front().drop > best->drop)) break;
+    *best = std::move(around.front());
+  }
+  std::stable_sort(screened->begin(), screened->end(),
+                   [](const Screened& a, const Screened& b) { return a.drop > b.drop; });
 }
 
 /// What a rival of a cause that leaves just noise must come near to.

@@ -46,6 +46,7 @@ class DiagnosisWork {
   bool FitBaseline(Problems* problems);
   /// Orders the hypotheses by what they promise, beside the model at `base`.
   std::vector<Screened> ScreenAround(const FittedTrial& base, const std::string& stage);
+  void LookAroundTheBestObstacle(const FittedTrial& base, std::vector<Screened>* screened) const;
   /// Fits the most promising causes, one at a time, together with those of the model `beside`.
   void FitCandidates(const std::vector<Screened>& screened, int beside, int most, double part);
   /// Fits the two causes together that promise most, where no single one promises nearly as much.

@@ -152,6 +152,11 @@ struct Components {
   Eigen::VectorXd gradient;
 };
 
+bool Grows(const Trial& trial) {
+  return std::any_of(trial.components.begin(), trial.components.end(),
+                     [](const TrialComponent& component) { return component.grows(); });
+}
+
 /// Of what does not grow: it is there as a whole.
 double DropAsAWhole(const Screened& one) {
   Eigen::VectorXd effect = one.effects.front(), part = one.parts.front();
@@ -264,10 +269,7 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
       one.gradient.push_back(
           own ? 0.0 : column->effect.dot(residual) - one.parts.back().dot(residual_part));
     }
-    one.drop = std::any_of(one.trial.components.begin(), one.trial.components.end(),
-                           [](const TrialComponent& component) { return component.grows(); })
-                   ? Components({&one}).DropOf({0})
-                   : DropAsAWhole(one);
+    one.drop = Grows(one.trial) ? Components({&one}).DropOf({0}) : DropAsAWhole(one);
     screened.push_back(std::move(one));
   }
   std::stable_sort(screened.begin(), screened.end(),
@@ -285,6 +287,8 @@ std::vector<ScreenedPair> ScreenPairs(const std::vector<Screened>& screened) {
     for (std::size_t b = a + 1; b < screened.size(); ++b) {
       const std::string &first = screened[a].trial.cause, &second = screened[b].trial.cause;
       if (!screened[a].trial.CanBeBeside(screened[b].trial)) continue;
+      // What is there as a whole has no amplitude to be shared with another's.
+      if (!Grows(screened[a].trial) || !Grows(screened[b].trial)) continue;
       const double drop = components.DropOf({a, b});
       ScreenedPair& known = best[std::minmax(first, second)];
       if (drop > known.drop) known = {a, b, drop};

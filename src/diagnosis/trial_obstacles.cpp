@@ -20,8 +20,12 @@ constexpr int kDirections = 12;  // of planes, around it
 // How far into the motion an obstacle reaches first, from its end to its middle: then as far as
 // shows faintly.
 constexpr double kDepth = 0.05;
+// How far they reach where they are tried as a whole, likewise.
+constexpr double kWholeDepths[] = {0.15, 0.3, 0.45, 0.6, 0.8};
 constexpr int kPegStations[] = {4, 7, 10};
 constexpr double kPegRadius = 0.003;  // [m]
+// From one tried as a whole to those around it [rad], by the cable's length.
+constexpr double kTurned = 0.12, kMoved = 0.02;
 
 /// Where the cable comes in one experiment: in clamp a's frame, a row per sample, x y z of each
 /// station after the other.
@@ -59,6 +63,18 @@ Trial TrialOf(std::vector<HypothesisNumber> numbers) {
   trial.components.back().one_sided = true;
   trial.components.back().size = kDepth;
   return trial;
+}
+
+/// One that is there as a whole, at `depth` of what a faint one grows to.
+Trial AsAWhole(Trial faint, double depth) {
+  for (TrialComponent& component : faint.components)
+    for (HypothesisNumber& number : component.numbers) {
+      if (number.role != Role::kSize) continue;
+      number.times = number.origin + depth * number.times;
+      number.origin = 0;
+      number.role = Role::kFree;
+    }
+  return faint;
 }
 
 /// Grows from where it just touches to `reach` beyond.
@@ -119,7 +135,7 @@ void AddPegs(const Sweep& sweep, std::vector<Trial>* trials) {
 
 }  // namespace
 
-std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at) {
+std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at, bool whole) {
   const auto& experiments = problem.unknowns().set().experiments;
   std::vector<Sweep> sweeps;
   for (std::size_t e = 0; e < experiments.size(); ++e) {
@@ -142,7 +158,30 @@ std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at)
         return motion(a) < motion(b);
       });
   AddPegs(*widest, &trials);
+  if (!whole) return trials;
+  const std::vector<Trial> faint = trials;
+  for (const Trial& one : faint)
+    for (const double depth : kWholeDepths) trials.push_back(AsAWhole(one, depth));
   return trials;
+}
+
+std::vector<Trial> ObstaclesAround(const Trial& whole, double length) {
+  std::vector<Trial> around = {whole};
+  for (const HypothesisNumber& moved : whole.components.front().numbers) {
+    if (moved.role != Role::kFree) continue;
+    const bool is_angle = moved.path.find("azimuth") != std::string::npos ||
+                          moved.path.find("elevation") != std::string::npos;
+    const double step = is_angle ? kTurned : kMoved * length;
+    const std::vector<Trial> before = around;
+    for (const Trial& one : before)
+      for (const double by : {-step, step}) {
+        Trial other = one;
+        for (HypothesisNumber& number : other.components.front().numbers)
+          if (number.path == moved.path) number.times += by;
+        around.push_back(other);
+      }
+  }
+  return around;
 }
 
 }  // namespace cosserat_cable

@@ -1,5 +1,6 @@
 // Where a diagnosis begins to look for an obstacle: there is no amplitude that it could grow from,
-// so planes and pegs are tried in the way of the motion.
+// so planes and pegs are tried in the way of the motion, as faint ones, which just touch it, and as
+// whole ones: what follows an impact depends on it so much that a faint one does not lead there.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,11 @@
 namespace cosserat_cable {
 
 /// Trials of the cause `contact` in clamp a's frame, each in the way of some part of the motion
-/// that the model at a point makes.
-std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at);
+/// that the model at a point makes: faint ones, and `whole` ones if asked for.
+std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at, bool whole);
+
+/// A whole one and others beside it, all its free numbers more and less, for a cable of this
+/// length.
+std::vector<Trial> ObstaclesAround(const Trial& whole, double length);
 
 }  // namespace cosserat_cable

@@ -19,8 +19,7 @@ constexpr double kBeyondError = 3, kBeyondErrorHeldOut = 2;
 constexpr double kExplained = 0.97, kMostLeft = 6;
 // And somewhat less of it, where no more than half of the noise's variance is left beyond it.
 constexpr double kExplainedOfFaint = 0.95, kNearNoise = 1.5;
-// Of what a part of it leaves, what several causes together explain where they do not leave noise:
-// what no law describes is easily shared out among two.
+// Of what a part of it leaves, what several causes together explain where they do not leave noise.
 constexpr double kExplainedBeyondPart = 0.9;
 // What a rival leaves beyond the noise, by what the best leaves, where neither leaves just noise.
 constexpr double kFarWorse = 2.5;
@@ -84,12 +83,23 @@ class Court {
     const int more = std::max(1, Of(better).parameters - Of(worse).parameters);
     return kSignificant + kPerParameter * (more - 1);
   }
+  /// Times the noise's variance that may be left by what is right in kind. Of several causes, next
+  /// to none: what no law describes is easily shared out among two. But where laws of a kind differ
+  /// in form, one of them leaves as much as alone.
+  static double MostLeft(const Contender& one) {
+    const bool differ_in_form =
+        std::any_of(one.causes.begin(), one.causes.end(), [](const std::string& name) {
+          const Cause* cause = FindCause(name);
+          return cause && cause->form > 0;
+        });
+    return one.causes.size() < 2 || differ_in_form ? kMostLeft : kNearNoise;
+  }
   /// Whether a contender leaves just noise, or is right in kind.
   bool Explains(int i) const {
     const Contender& one = Of(i);
     if (one.adequacy.adequate) return true;
     const double share = ShareOf(one, Of(0)), left = one.adequacy.times();
-    const bool in_kind = (share > kExplained && left < kMostLeft) ||
+    const bool in_kind = (share > kExplained && left < MostLeft(one)) ||
                          (share > kExplainedOfFaint && left < kNearNoise);
     return in_kind && std::none_of(contenders_.begin(), contenders_.end(), [&](const auto& part) {
              return IsPartOf(part, one) && ShareOf(one, part) < kExplainedBeyondPart;
