@@ -83,16 +83,17 @@ class Court {
     const int more = std::max(1, Of(better).parameters - Of(worse).parameters);
     return kSignificant + kPerParameter * (more - 1);
   }
-  /// Times the noise's variance that may be left by what is right in kind. Of several causes, next
-  /// to none: what no law describes is easily shared out among two. But where laws of a kind differ
-  /// in form, one of them leaves as much as alone.
+  /// Times the noise's variance that may be left by what is right in kind: next to none, but of one
+  /// law of the cable, or beside a law whose kind differs in form. What no law describes is easily
+  /// shared out among two, and a fault of a record has one form only.
   static double MostLeft(const Contender& one) {
-    const bool differ_in_form =
-        std::any_of(one.causes.begin(), one.causes.end(), [](const std::string& name) {
-          const Cause* cause = FindCause(name);
-          return cause && cause->form > 0;
-        });
-    return one.causes.size() < 2 || differ_in_form ? kMostLeft : kNearNoise;
+    bool differs = false, of_cable = true;
+    for (const std::string& name : one.causes) {
+      const Cause* cause = FindCause(name);
+      differs = differs || (cause && cause->form > 0);
+      of_cable = of_cable && cause && cause->law.has_value();
+    }
+    return differs || (of_cable && one.causes.size() < 2) ? kMostLeft : kNearNoise;
   }
   /// Whether a contender leaves just noise, or is right in kind.
   bool Explains(int i) const {

@@ -54,6 +54,12 @@ Unknown::Scaling ScalingOf(const Parameter& parameter) {
              : Unknown::Scaling::kLinear;
 }
 
+/// Of any extension: `s` is a place on the cable.
+bool IsArcLength(const Parameter& parameter) {
+  return parameter.unit == "m" && parameter.path.size() > 2 &&
+         parameter.path.compare(parameter.path.size() - 2, 2, ".s") == 0;
+}
+
 }  // namespace
 
 double VariableOf(const Unknown& unknown, double value) {
@@ -234,6 +240,10 @@ void Unknowns::AddCable(const std::string& name, Problems* problems) {
                                              : parameter->sign == ParameterSign::kPositive
                                                  ? unknown.scale / far_stiffness
                                                  : 0.0);
+  // Beyond the end of the shortest cable nothing can be simulated.
+  if (IsArcLength(*parameter))
+    for (const CableKeys& keys : keys_)
+      unknown.upper = std::min(unknown.upper, keys.length.value.value_or(unknown.upper));
   if (unknown.scaling != Unknown::Scaling::kLinear)
     unknown.lower = std::max(unknown.lower, unknown.scale / kFarthestOfEntry);
   all_.push_back(unknown);

@@ -123,6 +123,16 @@ TEST(VerdictTest, TwoCausesAreNamedOnlyWhereEachIsNeeded) {
   EXPECT_EQ(JudgeWith(spare).best, 1);
 }
 
+TEST(VerdictTest, OnlyLawsOfTheCableMayDifferInForm) {
+  const auto verdict = [](std::vector<std::string> causes) {
+    return JudgeWith({Leaves({}, 200, 0), Leaves(std::move(causes), 3)}).verdict;
+  };
+  EXPECT_EQ(verdict({"nonlinear_stiffness"}), Verdict::kNamed);
+  EXPECT_EQ(verdict({"clock"}), Verdict::kUnexplained);
+  EXPECT_EQ(verdict({"contact", "bend_twist_coupling"}), Verdict::kUnexplained);
+  EXPECT_EQ(verdict({"contact", "section_friction"}), Verdict::kNamed);
+}
+
 TEST(VerdictTest, TwoCausesThatLeaveMuchOfWhatOneLeavesExplainNothing) {
   const auto with_both_leaving = [](double one, double both) {
     return JudgeWith({Leaves({}, 17, 0), Leaves({"air_drag"}, one), Leaves({"drift"}, 15),

@@ -109,6 +109,15 @@ TEST(FitProblemTest, AnExtensionGrowsFromNothingAndPredictsTheRecordLeftOut) {
   EXPECT_NEAR(of_first.samples, 401, 0);
 }
 
+TEST(FitProblemTest, APlaceOnTheCableIsNotSoughtBeyondItsEnd) {
+  MeasurementSet set = RingDowns(0);
+  set.cable = Keys("[extensions.added_mass.s]", "extensions: {added_mass: {s: 0.2, mass: 1.0e-3}}");
+  Problems problems;
+  const FitProblem problem(set, {}, &problems);
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  EXPECT_EQ(problem.unknowns().all().at(0).upper, 0.25);
+}
+
 TEST(FitProblemTest, HeldUnknownsStay) {
   const MeasurementSet set = RingDowns(0);
   FitProblemOptions options;
