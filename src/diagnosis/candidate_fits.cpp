@@ -79,6 +79,7 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, int bes
       trials.push_back(one->trial);
       std::unique_ptr<FittedTrial> fitted = FitOneOrFromTheSet(trials, *from);
       if (!fitted) continue;
+      if (fitted->point.ok && !fitted->point.interrupted) FitObstacleInTurns(*from, &fitted);
       Charge(stage, fitted->problem->count());
       if (fitted->point.ok && !fitted->point.interrupted) {
         FittedTrial* model = fitted.get();

@@ -31,8 +31,10 @@ constexpr double kFar = 30;
 constexpr std::size_t kFewOfRecords = 30;
 // A factor that the plain model has changed a stiffness by, from which a cause may not find back.
 constexpr double kRanAway = 3;
-// Rounds in which a better place of an obstacle is looked for.
-constexpr int kObstacleRounds = 4;
+// The part of the best promise, or of the misfit, for which a better place of an obstacle is looked
+// for; how often after a fit, by which steps, and what another turn must leave at most.
+constexpr double kPromisingObstacle = 0.5, kNearerSteps = 0.25, kGainOfTurn = 0.9;
+constexpr int kObstacleTurns = 4;
 const char* const kPlain = "plain";
 
 /// Of trials with all that they begin with.
@@ -218,14 +220,39 @@ void DiagnosisWork::LookAroundTheBestObstacle(const FittedTrial& base,
   const auto best = std::find_if(screened->begin(), screened->end(),
                                  [](const Screened& one) { return one.trial.cause == "contact"; });
   if (best == screened->end() || best->trial.components.front().grows()) return;
-  for (int round = 0; round < kObstacleRounds; ++round) {
-    std::vector<Screened> around =
-        Screen(*base.problem, base.point, ObstaclesAround(best->trial, scales_.length));
-    if (around.empty() || !(around.front().drop > best->drop)) break;
-    *best = std::move(around.front());
-  }
+  if (best->drop < kPromisingObstacle * screened->front().drop) return;
+  *best = BestObstacleNear(*base.problem, base.point, *best, 1, scales_.length);
   std::stable_sort(screened->begin(), screened->end(),
                    [](const Screened& a, const Screened& b) { return a.drop > b.drop; });
+}
+
+/// What follows an impact is too rough for derivatives alone: fits and searches for a better place
+/// take turns, as long as they gain.
+void DiagnosisWork::FitObstacleInTurns(const FittedTrial& from,
+                                       std::unique_ptr<FittedTrial>* fitted) {
+  const Trial& trial = (*fitted)->trials.back();
+  if (trial.cause != "contact" || trial.components.front().grows()) return;
+  FitProblem& plain = *from.problem;
+  for (int turn = 0; turn < kObstacleTurns; ++turn) {
+    FittedTrial& now = **fitted;
+    if (ShareOf(now) < kPromisingObstacle || AdequacyOf(now.point, seen_noise_).adequate) return;
+    const FitPoint there = plain.At(plain.StartFrom(now.point, {}));
+    if (!there.ok || OutOfTime()) return;
+    Screened start;
+    start.trial = now.trials.back();
+    for (HypothesisNumber& number : start.trial.components.front().numbers)
+      if (const double value = now.point.ValueOf(number.path); std::isfinite(value))
+        number.times = value;
+    const Screened near = BestObstacleNear(plain, there, start, kNearerSteps, scales_.length);
+    std::vector<Trial> trials = now.trials;
+    trials.back() = near.trial;
+    const std::map<std::string, double> place = near.trial.Values();
+    std::unique_ptr<FittedTrial> next = FitOne(trials, now, place);
+    if (!next || !next->point.ok || next->point.interrupted ||
+        !(next->point.cost < kGainOfTurn * now.point.cost))
+      return;
+    *fitted = std::move(next);
+  }
 }
 
 /// What a rival of a cause that leaves just noise must come near to.

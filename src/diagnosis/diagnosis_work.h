@@ -46,7 +46,6 @@ class DiagnosisWork {
   bool FitBaseline(Problems* problems);
   /// Orders the hypotheses by what they promise, beside the model at `base`.
   std::vector<Screened> ScreenAround(const FittedTrial& base, const std::string& stage);
-  void LookAroundTheBestObstacle(const FittedTrial& base, std::vector<Screened>* screened) const;
   /// Fits the most promising causes, one at a time, together with those of the model `beside`.
   void FitCandidates(const std::vector<Screened>& screened, int beside, int most, double part);
   /// Fits the two causes together that promise most, where no single one promises nearly as much.
@@ -98,6 +97,8 @@ class DiagnosisWork {
   /// From where a simpler model stands; `also`: unknowns that begin elsewhere.
   std::unique_ptr<FittedTrial> FitOne(const std::vector<Trial>& trials, const FittedTrial& from,
                                       const Also& also = {});
+  void LookAroundTheBestObstacle(const FittedTrial& base, std::vector<Screened>* screened) const;
+  void FitObstacleInTurns(const FittedTrial& from, std::unique_ptr<FittedTrial>* fitted);
   std::unique_ptr<FittedTrial> FitOneOrFromTheSet(const std::vector<Trial>& trials,
                                                   const FittedTrial& from);
   /// The better one of this and of what there is with its causes. @return whether it is this

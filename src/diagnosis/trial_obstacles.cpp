@@ -24,8 +24,11 @@ constexpr double kDepth = 0.05;
 constexpr double kWholeDepths[] = {0.15, 0.3, 0.45, 0.6, 0.8};
 constexpr int kPegStations[] = {4, 7, 10};
 constexpr double kPegRadius = 0.003;  // [m]
-// From one tried as a whole to those around it [rad], by the cable's length.
+// Steps of one, from one tried as a whole to those around it: [rad], and by the cable's length.
 constexpr double kTurned = 0.12, kMoved = 0.02;
+// How small they become, by the first; and how many.
+constexpr double kSmallestStep = 0.1;
+constexpr int kRounds = 10;
 
 /// Where the cable comes in one experiment: in clamp a's frame, a row per sample, x y z of each
 /// station after the other.
@@ -165,23 +168,37 @@ std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at,
   return trials;
 }
 
-std::vector<Trial> ObstaclesAround(const Trial& whole, double length) {
+std::vector<Trial> ObstaclesAround(const Trial& whole, double step, double length) {
   std::vector<Trial> around = {whole};
   for (const HypothesisNumber& moved : whole.components.front().numbers) {
     if (moved.role != Role::kFree) continue;
     const bool is_angle = moved.path.find("azimuth") != std::string::npos ||
                           moved.path.find("elevation") != std::string::npos;
-    const double step = is_angle ? kTurned : kMoved * length;
+    const double by = step * (is_angle ? kTurned : kMoved * length);
     const std::vector<Trial> before = around;
     for (const Trial& one : before)
-      for (const double by : {-step, step}) {
+      for (const double side : {-1.0, 1.0}) {
         Trial other = one;
         for (HypothesisNumber& number : other.components.front().numbers)
-          if (number.path == moved.path) number.times += by;
+          if (number.path == moved.path) number.times += side * by;
         around.push_back(other);
       }
   }
   return around;
+}
+
+Screened BestObstacleNear(const FitProblem& problem, const FitPoint& at, const Screened& whole,
+                          double step, double length) {
+  Screened best = whole;
+  const double smallest = kSmallestStep * step;
+  for (int round = 0; round < kRounds && step > smallest; ++round) {
+    std::vector<Screened> around = Screen(problem, at, ObstaclesAround(best.trial, step, length));
+    if (!around.empty() && around.front().drop > best.drop)
+      best = std::move(around.front());
+    else
+      step /= 2;
+  }
+  return best;
 }
 
 }  // namespace cosserat_cable

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cosserat_cable/fit/fit_problem.h"
+#include "screening.h"
 #include "trial.h"
 
 namespace cosserat_cable {
@@ -14,8 +15,12 @@ namespace cosserat_cable {
 /// that the model at a point makes: faint ones, and `whole` ones if asked for.
 std::vector<Trial> TrialObstacles(const FitProblem& problem, const FitPoint& at, bool whole);
 
-/// A whole one and others beside it, all its free numbers more and less, for a cable of this
-/// length.
-std::vector<Trial> ObstaclesAround(const Trial& whole, double length);
+/// A whole one and others beside it, all its free numbers less and more by `step` of some degrees
+/// or hundredths of the cable's length.
+std::vector<Trial> ObstaclesAround(const Trial& whole, double step, double length);
+
+/// Of a whole one and what promises more around it, the best: step by step, by ever smaller steps.
+Screened BestObstacleNear(const FitProblem& problem, const FitPoint& at, const Screened& whole,
+                          double step, double length);
 
 }  // namespace cosserat_cable

@@ -45,7 +45,7 @@ TEST(TrialObstacles, OneThatIsThereAsAWholeStandsNearTheWall) {
   EXPECT_LT(std::abs(std::remainder(Of(best, "azimuth") - kFacing, 2 * kFacing)), kNearAngle);
   EXPECT_NEAR(Of(best, "offset"), kWall, kNear);
   // Around it there is a better one, or it is the best itself.
-  const std::vector<Screened> around = Screen(problem, plain, ObstaclesAround(best, 0.25));
+  const std::vector<Screened> around = Screen(problem, plain, ObstaclesAround(best, 1, 0.25));
   ASSERT_FALSE(around.empty());
   EXPECT_GE(around.front().drop, screened.front().drop);
 }
