@@ -42,6 +42,8 @@ Cause BendTwistCouplingCause() {
   law.enter = Enter;
   cause.name = law.name;
   cause.words = "a coupling between bending and torsion";
+  // Where the twist is neither held nor seen, all that is left of it is EI (1 - c^2).
+  cause.acts_by_square = true;
   cause.hypotheses = {
       {{{{"extensions.bend_twist_coupling.c1"}}, {{"extensions.bend_twist_coupling.c2"}}}}};
   return cause;

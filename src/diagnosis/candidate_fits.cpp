@@ -65,13 +65,19 @@ void DiagnosisWork::FitCandidates(const std::vector<Screened>& screened, int bes
       if (by_cause.count(simpler) > 0 &&
           std::find(chosen.begin(), chosen.end(), simpler) == chosen.end())
         chosen.push_back(simpler);
+  // So is what such a score says nothing of.
+  for (const std::string& name : order)
+    if (alone && FindCause(name)->acts_by_square &&
+        std::find(chosen.begin(), chosen.end(), name) == chosen.end())
+      chosen.push_back(name);
   double done = 0;
   for (const std::string& name : chosen) {
     if (alone && !tried_.insert(name).second) continue;
     const bool explained = IsExplained();
     for (const Screened* one : by_cause[name]) {
       if (one != by_cause[name].front() && (explained || IsExplained(name, *from))) break;
-      if (explained && one->drop < kRivalPromise * from->point.cost) break;
+      const bool promises_little = one->drop < kRivalPromise * from->point.cost;
+      if (explained && promises_little && !(alone && FindCause(name)->acts_by_square)) break;
       if (OutOfTime() || !Tell((alone ? "trying " : "together with ") + name,
                                part + 0.3 * done / static_cast<double>(chosen.size())))
         return;
