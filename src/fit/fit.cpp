@@ -395,9 +395,8 @@ FitResult Fit(const RecordModel& model, const Eigen::VectorXd& values, const Hor
   FitResult result;
   result.interrupted = found.end == LeastSquaresResult::End::kStopped || model.Stopping();
   result.ok = found.end != LeastSquaresResult::End::kFailed;
-  result.at_minimum =
-      found.end == LeastSquaresResult::End::kMinimum ||
-      (found.end == LeastSquaresResult::End::kStuck && found.gain_left < kHidden);
+  result.at_minimum = found.end == LeastSquaresResult::End::kMinimum ||
+                      (found.end == LeastSquaresResult::End::kStuck && found.gain_left < kHidden);
   result.is_far = found.end == LeastSquaresResult::End::kFar;
   result.message = problem.message();
   result.cost = found.cost;

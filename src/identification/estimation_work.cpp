@@ -139,11 +139,10 @@ bool EstimationWork::FitInRounds() {
     last_move = moved;
     if (round > 0 && (misfit_ || (!noise_changed && !sharper && next < kSettled))) break;
   }
-  end_ = fit_.at_minimum
-             ? ""
-             : "no step gains anything, although the derivatives put the minimum " +
-                   FormatRounded(std::sqrt(2 * fit_.gain_left), 2) +
-                   " standard deviations away: the records' misfit is rough";
+  end_ = fit_.at_minimum ? ""
+                         : "no step gains anything, although the derivatives put the minimum " +
+                               FormatRounded(std::sqrt(2 * fit_.gain_left), 2) +
+                               " standard deviations away: the records' misfit is rough";
   return true;
 }
 

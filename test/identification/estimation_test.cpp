@@ -123,6 +123,27 @@ TEST(EstimationTest, ItCanBeStopped) {
   EXPECT_TRUE(estimation.interrupted);
 }
 
+TEST(EstimationTest, NumbersOfNoMinimumAreMarked) {
+  Experiment experiment = testing::Torsion(2e-6, 0.5, 0.5, 101);
+  Specimen specimen = CableSpecimen();
+  specimen.disc_inertia = 2e-6;
+  Record(specimen, 0.002, &experiment);
+  const MeasurementSet set = SetWith({experiment}, "[GJ]");
+  Problems problems;
+  EstimationOptions options;
+  EXPECT_EQ(Of(Estimate(set, options, &problems), "GJ").doubt, "");
+  options.progress = [](const std::string& what, double) {
+    return what.find("fitting whole records") == std::string::npos;
+  };
+  const Estimation cut_off = Estimate(set, options, &problems);
+  ASSERT_TRUE(problems.empty()) << problems.ToString();
+  ASSERT_TRUE(cut_off.ok) << cut_off.message;
+  EXPECT_FALSE(cut_off.converged);
+  const ParameterEstimate& found = Of(cut_off, "GJ");
+  ASSERT_TRUE(found.determined) << found.reason;
+  EXPECT_NE(found.doubt.find("no minimum"), std::string::npos) << found.doubt;
+}
+
 TEST(EstimationTest, NoiseAloneDeterminesNothing) {
   Experiment experiment = testing::RingDown(0.01, 0.5, 251);
   Record(CableSpecimen(), 0.0, &experiment);

@@ -72,7 +72,8 @@ struct Cause {
   /// Cables of this kind have laws that differ in form, and their numbers with it: half of a 95 %
   /// interval on that account, in parts of each number.
   double form = 0;
-  /// Records may show it by its square only: a faint one promises nothing of what a larger one does.
+  /// Records may show it by its square only: a faint one promises nothing of what a larger one
+  /// does.
   bool acts_by_square = false;
   /// Simpler causes that it turns into where some of its numbers vanish or grow without bound.
   std::vector<std::string> contains;
