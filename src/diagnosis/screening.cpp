@@ -201,7 +201,6 @@ std::vector<Screened> Screen(const FitProblem& problem, const FitPoint& at,
       if (component.acts_beside()) {
         const RecordModel::Simulated& reference = found[next_without++];
         beside = &reference.records;
-        if (reference.ok) beside = &reference.records;
         found[i].ok = found[i].ok && reference.ok;
       }
       if (!found[i].ok && failures && (round == kRescaled || !component.grows()))

@@ -88,7 +88,10 @@ void MujocoChain::HoldBy(const Point& force) {
 }
 
 void MujocoChain::Step() {
-  AddEffects();
+  if (ActsOnPieces() || ActsOnJoints()) {
+    mj_forward(model_.get(), data_.get());
+    AddEffects();
+  }
   mj_step(model_.get(), data_.get());
 }
 
@@ -105,17 +108,22 @@ void MujocoChain::Push(const Point& force, const Point& at, int body) {
   mj_applyFT(model_.get(), data_.get(), force.data(), none, at.data(), body, data_->qfrc_applied);
 }
 
+bool MujocoChain::ActsOnPieces() const {
+  const ChainEffects& e = effects_;
+  return e.drag > 0 || e.external > 0 || e.eddy > 0 || e.wall > 0;
+}
+
+bool MujocoChain::ActsOnJoints() const {
+  const ChainEffects& e = effects_;
+  return e.friction > 0 || e.change != 0 || e.anisotropy != 0 || e.rest_curvature != 0 ||
+         e.play > 0;
+}
+
 void MujocoChain::AddEffects() {
   Clear();
-  const ChainEffects& e = effects_;
-  const bool on_pieces = e.drag > 0 || e.external > 0 || e.eddy > 0 || e.wall > 0;
-  const bool on_joints =
-      e.friction > 0 || e.change != 0 || e.anisotropy != 0 || e.rest_curvature != 0 || e.play > 0;
-  if (!on_pieces && !on_joints) return;
-  mj_forward(model_.get(), data_.get());
   for (int body = 1; body <= kPieces; ++body) {
-    if (on_pieces) AddToPiece(body);
-    if (on_joints) AddToJoint(body);
+    if (ActsOnPieces()) AddToPiece(body);
+    if (ActsOnJoints()) AddToJoint(body);
   }
 }
 

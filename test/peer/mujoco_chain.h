@@ -58,6 +58,9 @@ class MujocoChain {
   std::string Xml() const;
   void Clear() { mju_zero(data_->qfrc_applied, model_->nv); }
   void Push(const Point& force, const Point& at, int body);
+  bool ActsOnPieces() const;
+  bool ActsOnJoints() const;
+  /// To the forces of the state that MuJoCo has gone forward to.
   void AddEffects();
   void AddToPiece(int body);
   void AddToJoint(int body);

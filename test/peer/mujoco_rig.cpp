@@ -156,8 +156,9 @@ int main(int argc, char** argv) {
   app.add_option("--tip-mass", hidden.tip_mass, "kg");
   app.add_option("--clamp-spring", hidden.clamp_spring, "of a clamp that gives way [N m/rad]");
   app.add_option("--play", hidden.play, "half of the clamp's backlash [rad]");
-  app.add_option("--friction", hidden.friction, "moment at which strands slip [N m]");
-  app.add_option("--friction-EI", hidden.friction_EI, "what stuck strands add to EI [N m^2]");
+  CLI::Option* stuck =
+      app.add_option("--friction-EI", hidden.friction_EI, "what stuck strands add to EI [N m^2]");
+  app.add_option("--friction", hidden.friction, "moment at which strands slip [N m]")->needs(stuck);
   app.add_option("--change", hidden.change, "of EI at large curvature, in parts of it");
   app.add_option("--change-curvature", hidden.change_curvature, "at half of that [1/m]")
       ->capture_default_str();
